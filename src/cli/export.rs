@@ -2,7 +2,7 @@
 
 use crate::cli::arguments::{Export, InputOptions};
 use crate::cli::failure::Failure;
-use crate::cli::{input, output, run};
+use crate::cli::{files, input, output, run};
 use crate::io::pattern_formats::{self, PatternFormat, endings};
 use crate::io::rul;
 use crate::io::usd::UsdFormat;
@@ -16,6 +16,9 @@ const OF_CLOTH: [&str; 4] = ["obj", "glb", "usda", "usdz"];
 pub fn export(arguments: &Export) -> Result<(), Failure> {
     let ending =
         arguments.output.extension().and_then(|e| e.to_str()).unwrap_or_default().to_ascii_lowercase();
+    if files::table_name(&arguments.project).is_some() {
+        return table(arguments, &ending);
+    }
     let of_pattern = PatternFormat::of_ending(&ending);
     if of_pattern.is_none() && !OF_CLOTH.contains(&ending.as_str()) {
         let words = format!(
@@ -66,4 +69,13 @@ pub fn export(arguments: &Export) -> Result<(), Failure> {
         [(path, bytes)] => output::write(path, bytes),
         files => output::write_together(files),
     }
+}
+
+/// Writes a built-in table of sizes.
+fn table(arguments: &Export, ending: &str) -> Result<(), Failure> {
+    if ending != "csv" {
+        let words = format!("{}: the ending must be .csv for a table of sizes", arguments.output.display());
+        return Err(Failure::Usage(words));
+    }
+    output::write(&arguments.output, &files::table_of_sizes(&arguments.project)?)
 }

@@ -3,11 +3,14 @@
 use std::path::Path;
 
 use crate::cli::failure::Failure;
+use crate::draft::SIZE_TABLES;
 use crate::io::{FILE_BYTES, rul};
 use crate::session::whole_file;
 
 /// Prefix of the names of built-in samples.
 const SAMPLE: &str = "sample:";
+/// Prefix of the names of built-in tables of sizes.
+const SIZES: &str = "sizes:";
 /// The name of the built-in figure for `--body`.
 pub const MANNEQUIN: &str = "mannequin";
 
@@ -21,6 +24,21 @@ pub fn sample_name(path: &Path) -> Option<&str> {
     path.to_str()?.strip_prefix(SAMPLE)
 }
 
+/// The name of the built-in table of sizes that `path` names, without the prefix; None for a file.
+pub fn table_name(path: &Path) -> Option<&str> {
+    path.to_str()?.strip_prefix(SIZES)
+}
+
+/// The table of sizes that `path` names, CSV: a file, or one that is built in.
+pub fn table_of_sizes(path: &Path) -> Result<Vec<u8>, Failure> {
+    let Some(name) = table_name(path) else { return read(path) };
+    let found = SIZE_TABLES.iter().find(|table| table.name == name);
+    found.map(|table| table.csv().into_bytes()).ok_or_else(|| {
+        let names = SIZE_TABLES.map(|table| table.name).join(", ");
+        Failure::input(path, format!("there is no such table of sizes; there are {names}"))
+    })
+}
+
 /// The name without folder, extension and "sample:".
 pub fn name_of(path: &Path) -> String {
     match sample_name(path) {
@@ -29,11 +47,11 @@ pub fn name_of(path: &Path) -> String {
     }
 }
 
-/// The bytes that identify what `path` names: the contents of a file, or the name of a sample or the mannequin.
+/// The bytes that identify what `path` names: the contents of a file or table, or the name of a sample or the mannequin.
 pub fn bytes_of(path: &Path) -> Result<Vec<u8>, Failure> {
     match path.to_str() {
         Some(name) if is_sample(path) || name == MANNEQUIN => Ok(name.as_bytes().to_vec()),
-        _ => read(path),
+        _ => table_of_sizes(path),
     }
 }
 

@@ -4,10 +4,10 @@ use std::path::Path;
 use std::sync::Arc;
 
 use crate::body::Imported;
-use crate::body::mannequin::{Measurements, mannequin};
+use crate::body::mannequin::Measurements;
 use crate::cli::arguments::{BodyFile, InputOptions, SizeOptions};
 use crate::cli::failure::Failure;
-use crate::cli::files::{MANNEQUIN, is_sample, name_of, read, sample_name};
+use crate::cli::files::{MANNEQUIN, is_sample, name_of, read, sample_name, table_of_sizes};
 use crate::cli::{formats, output};
 use crate::geometry::polygon::signed_area;
 use crate::io::scale::DrawingUnit;
@@ -122,8 +122,7 @@ fn sample(path: &Path, name: &str) -> Result<Project, Failure> {
         let names = Sample::ALL.map(Sample::file_stem).join(", ");
         return Err(Failure::input(path, format!("there is no such sample; there are {names}")));
     };
-    let figure = mannequin(&Measurements::default()).map_err(|e| Failure::input(path, e))?;
-    Ok(sample.project(&figure))
+    Ok(sample.usual())
 }
 
 /// The failure for an error of a project file at `path`.
@@ -267,7 +266,7 @@ fn take_size(project: &mut Project, path: &Path, size: &str) -> Result<(), Failu
 /// The chosen size, with the path of the table it is in.
 pub fn sized(options: &SizeOptions) -> Result<Option<(&Path, Measurements)>, Failure> {
     let (Some(path), Some(name)) = (&options.sizes, &options.body_size) else { return Ok(None) };
-    let size = sizes::read(&read(path)?).and_then(|sizes| sizes::chosen(&sizes, name)?.checked());
+    let size = sizes::read(&table_of_sizes(path)?).and_then(|sizes| sizes::chosen(&sizes, name)?.checked());
     let size = size.map_err(|error| match error {
         SizesError::OverLimit(words) => Failure::Limit(format!("{}: {words}", path.display())),
         error => Failure::input(path, error),

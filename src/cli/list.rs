@@ -129,7 +129,8 @@ fn is_name(name: &str) -> bool {
 /// What `name` stands for in a list in `folder`.
 fn beside(folder: &Path, name: impl AsRef<Path>) -> PathBuf {
     let name = name.as_ref();
-    match files::is_sample(name) || name == Path::new(files::MANNEQUIN) {
+    let is_built_in = files::is_sample(name) || files::table_name(name).is_some();
+    match is_built_in || name == Path::new(files::MANNEQUIN) {
         true => name.to_owned(),
         false => folder.join(name),
     }

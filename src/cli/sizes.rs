@@ -68,7 +68,7 @@ fn chosen(pattern: &Pattern, arguments: &Sizes) -> Result<Vec<String>, Failure> 
 /// Refuses a table without a body for each of the sizes, before the first of them is dressed.
 fn check_bodies(table: &Path, names: &[String]) -> Result<(), Failure> {
     let refused = |error: SizesError| Failure::input(table, error);
-    let bodies = sizes::read(&files::read(table)?).map_err(refused)?;
+    let bodies = sizes::read(&files::table_of_sizes(table)?).map_err(refused)?;
     names.iter().try_for_each(|name| {
         sizes::chosen(&bodies, name).and_then(|size| size.checked()).map(drop).map_err(refused)
     })

@@ -9,6 +9,7 @@ use crate::draft::neckline::Neckline;
 use crate::draft::path::{Dart, Path, cubic_length, to_the_right};
 use crate::geometry::ids::PieceId;
 use crate::geometry::random::Random;
+use crate::pattern::{Button, Piece, PiecePoint};
 
 /// Width moved from each quarter of the back to the front, metres: the bust takes more of the girth in front.
 const FRONT_SHARE: f64 = 0.008;
@@ -16,6 +17,10 @@ const FRONT_SHARE: f64 = 0.008;
 pub const CLEARANCE: f64 = 0.12;
 /// Distance from the armpit down to the underarm point of a bodice with set-in sleeves or none, metres.
 const UNDERARM_DROP: f64 = 0.030;
+/// Layer of the outer half of a front that opens, and of its collar.
+pub const OUTER: u8 = 1;
+/// Distance at which one half of a front that opens is placed before the other, metres.
+pub const OVERLAP: f64 = 0.06;
 
 /// Length of a bodice: where its hem is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
@@ -27,6 +32,21 @@ pub enum Hem {
     Hip,
     /// A third of the way from hip to knee.
     Tunic,
+    /// Below the knee.
+    Coat,
+}
+
+/// An opening from the neckline to the hem down the middle of the front, closed by buttons.
+#[derive(Clone, Copy, Debug, Serialize)]
+pub struct Opening {
+    /// Distance by which each half reaches over the middle, metres.
+    pub stand: f64,
+    /// Number of buttons, from the neckline to the hip.
+    pub buttons: u32,
+    /// Diameter of the buttons, metres.
+    pub diameter: f64,
+    /// Colour of the buttons, sRGB.
+    pub colour: [u8; 3],
 }
 
 /// Measures of a bodice, metres.
@@ -47,6 +67,9 @@ pub struct Bodice {
     pub blouse: f64,
     /// Difference between the length of the shoulder and that of its seam: armholes without sleeves are further in.
     pub short_shoulder: f64,
+    /// An opening in the front, which then has two halves.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub opening: Option<Opening>,
 }
 
 impl Bodice {
@@ -62,6 +85,7 @@ impl Bodice {
             centre_seams: [random.chance(0.25), random.chance(0.3)],
             blouse: 0.0,
             short_shoulder: 0.0,
+            opening: None,
         }
     }
 
@@ -76,6 +100,7 @@ impl Bodice {
             centre_seams: [random.chance(0.3), random.chance(0.4)],
             blouse: 0.0,
             short_shoulder: 0.0,
+            opening: None,
         }
     }
 
@@ -85,6 +110,7 @@ impl Bodice {
             Hem::Waist => form.bust - form.waist + self.blouse,
             Hem::Hip => form.bust - form.hip + 0.01,
             Hem::Tunic => form.bust - form.hip + (form.hip - form.knee) / 3.0,
+            Hem::Coat => form.bust - form.knee + 0.12 * (form.knee - form.ankle),
         }
     }
 
@@ -94,7 +120,7 @@ impl Bodice {
         let girth = match self.hem {
             Hem::Waist => m.waist,
             Hem::Hip => m.hip,
-            Hem::Tunic => m.hip + 0.04,
+            Hem::Tunic | Hem::Coat => m.hip + 0.04,
         };
         (girth + self.hem_ease) / 4.0
     }
@@ -121,6 +147,8 @@ pub struct Trunk {
     pub hem_height: [f64; 2],
     /// End points of the raglan line on front and back, in the plane of the piece, metres.
     pub raglan: [DVec2; 2],
+    /// Whether the front opens down its middle.
+    pub opens: bool,
 }
 
 impl Trunk {
@@ -165,7 +193,9 @@ pub fn bodice(garment: &mut Garment, form: &Form, cut: &Bodice, neck: &Neckline,
         };
         let underarm = DVec2::new(quarter, hem + rise);
         side_length = Some(underarm.distance(hem_end) - raised);
-        let mut path = Path::from(DVec2::new(0.0, hem));
+        let stand = if side == 0 { cut.opening.map_or(0.0, |opening| opening.stand) } else { 0.0 };
+        // A difference, so that no opening is 0 and not -0.
+        let mut path = Path::from(DVec2::new(0.0 - stand, hem));
         path = match cut.waist_dart > 0.0 {
             true => {
                 let depth = (0.72 * -hem).min(if side == 0 { -hem - 0.025 } else { -hem });
@@ -203,17 +233,21 @@ pub fn bodice(garment: &mut Garment, form: &Form, cut: &Bodice, neck: &Neckline,
             }
         };
         let low = DVec2::new(0.0, corner.y - neck.drops[side]);
-        paths.push(neck.drawn_down_to(path, side, low));
+        let path = neck.drawn_down_to(path, side, low);
+        paths.push(if stand > 0.0 { path.line("stand", low - DVec2::X * stand) } else { path });
     }
     let placed = [0, 1].map(|side| placed_height(form, &yoke, side));
     let mut sides = [Vec::new(), Vec::new()];
     for (side, path) in paths.into_iter().enumerate() {
-        sides[side] = stand_side(garment, form, path, side, cut.centre_seams[side], placed[side]);
+        sides[side] = match cut.opening.filter(|_| side == 0) {
+            Some(opening) => opened(garment, form, path, &opening, placed[side]),
+            None => stand_side(garment, form, path, side, cut.centre_seams[side], placed[side]),
+        };
     }
     let [front, back] = &sides;
     sew_trunk(garment, front, back);
     let hem_height = placed.map(|bust| bust + hem);
-    Trunk { sides, armhole_lengths: lengths, yoke, hem_height, raglan }
+    Trunk { sides, armhole_lengths: lengths, yoke, hem_height, raglan, opens: cut.opening.is_some() }
 }
 
 /// Sews shoulders, sides, centre seams and darts of a trunk.
@@ -247,6 +281,36 @@ pub fn stand_side(
     let left = half.half(&format!("{name} left"));
     let right = to_the_right(&left);
     [left, right].map(|piece| garment.stand(piece, Part::Body, facing, at)).into()
+}
+
+/// Places both halves of a front that opens, the right one over the left one, and sews its buttons on.
+fn opened(garment: &mut Garment, form: &Form, left: Path, opening: &Opening, height: f64) -> Vec<PieceId> {
+    let neck = left.end().y;
+    let left = left.closed("front left", "front edge");
+    let mut left = left;
+    left.outline
+        .iter_mut()
+        .for_each(|edge| edge.label = edge.label.as_ref().map(|label| format!("{label} left")));
+    // Suggested marks do not tell which half is outside: with a layer of its own the coat is sewn from where it is placed.
+    let right = Piece { layer: OUTER, ..to_the_right(&left) };
+    let z = form.depth[0] + CLEARANCE;
+    let halves = [(left, 0.0), (right, OVERLAP)].map(|(piece, over)| {
+        garment.stand(piece, Part::Body, Facing::Front, DVec3::new(0.0, height, z + over))
+    });
+    let (top, low) = (neck - opening.stand, form.hip - form.bust);
+    let gaps = f64::from(opening.buttons.max(2) - 1);
+    for i in 0..opening.buttons {
+        let at = DVec2::new(0.0, top + (low - top) * f64::from(i) / gaps);
+        let [button, hole] = halves.map(|piece| PiecePoint { piece, at });
+        garment.pattern.add_button(Button {
+            button,
+            hole,
+            diameter: opening.diameter,
+            colour: opening.colour,
+            open: false,
+        });
+    }
+    halves.into()
 }
 
 /// Height at which the bust line of front or back is placed so that the shoulder seam is on the shoulder, metres.

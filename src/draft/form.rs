@@ -44,6 +44,8 @@ pub struct Form {
     pub hip_depth: [f64; 2],
     /// Height of the crown.
     pub crown: f64,
+    /// Height of the chin.
+    chin: f64,
     /// The left arm in the pose.
     pub arm: Arm,
     surface: Surface,
@@ -111,6 +113,7 @@ impl Form {
             depth: [z("bust_front")?, z("bust_back")?],
             hip_depth: [z("hip_front")?, z("hip_back")?],
             crown: mark("crown")?.y,
+            chin: mark("chin")?.y,
             arm: arm(&figure.landmarks, |name| figure.skeleton.position(name))?,
             surface: Surface::new(figure.mesh.clone())?,
         })
@@ -126,8 +129,13 @@ impl Form {
 
     /// The top of the shoulder at `x`, metres.
     pub fn shoulder_at(&self, x: f64) -> DVec3 {
-        let above = DVec3::new(x, 1.0e3, self.shoulder.z);
-        self.surface.ray(above, DVec3::NEG_Y).map_or(self.shoulder, |hit| hit.point)
+        let below = |y: f64| {
+            let hit = self.surface.ray(DVec3::new(x, y, self.shoulder.z), DVec3::NEG_Y);
+            hit.map_or(self.shoulder, |hit| hit.point)
+        };
+        let top = below(1.0e3);
+        // A child's head is over its shoulders.
+        if top.y > self.chin { below(self.chin) } else { top }
     }
 
     /// The point of the skin at `x`, `y`, in front (`side` 1) or behind (-1).

@@ -166,3 +166,28 @@ fn pattern_body_and_marks_become_a_project() {
     let lost = place.ends(1, "check p.toile --body mannequin");
     assert!(lost.err.contains("mark 1: it could not be carried to mannequin"), "{lost:#?}");
 }
+
+#[test]
+fn tables_of_sizes_are_built_in() {
+    let place = Place::new();
+    place.ends(0, "export sizes:children -o children.csv");
+    let table = place.read("children.csv");
+    assert!(table.starts_with("size,height,bust,waist,hip\n98,98.0,"), "{table}");
+    assert_eq!(table.lines().count(), 13, "a header and twelve sizes");
+    // The table and the file are the same bodies, with a child's measurements.
+    let measured = |sizes: &str| {
+        let run = format!("measure --sizes {sizes} --body-size 116 --json");
+        let told: serde_json::Value = serde_json::from_str(&place.ends(0, &run).out).expect("JSON");
+        told["readings"].clone()
+    };
+    let readings = measured("sizes:children");
+    assert_eq!(readings, measured("children.csv"));
+    let waist = readings.as_array().expect("a list").iter().find(|r| r["name"] == "waist").expect("a waist");
+    assert!((waist["metres"].as_f64().expect("a number") - 0.56).abs() < 0.01, "{waist}");
+    place.ends_with_words(2, "export sizes:children -o children.dxf", "the ending must be .csv");
+    place.ends_with_words(
+        3,
+        "export sizes:teens -o x.csv",
+        "no such table of sizes; there are adults, children",
+    );
+}

@@ -11,6 +11,16 @@ use super::smooth::{blended, cut};
 
 /// Rounding of the crease where the two halves meet, metres.
 const CLEFT: f64 = 0.011;
+/// Depth by which a small child's breasts are sunk into its trunk, metres: none are seen.
+const SUNK: f64 = 0.12;
+/// Factors on the widths of a small child's head, from chin to brow: its cheeks are full.
+const SMALL_CHEEKS: [f64; 9] = [1.04, 1.08, 1.11, 1.10, 1.08, 1.05, 1.03, 1.01, 1.0];
+/// Height of a small child's features over that of a grown face's.
+const SMALL_FACE: f64 = 0.7;
+/// Height of a small child's features above its chin over that of a grown face's: its forehead is high.
+const SMALL_FACE_AT: f64 = 0.88;
+/// Height of what models a small child's trunk and limbs over that of a grown figure's: both are rounder.
+const SMALL_MODELLING: f64 = 0.6;
 
 /// The implicit function of a figure's skin. Symmetric in x.
 #[derive(Clone, Debug)]
@@ -30,6 +40,14 @@ pub struct Field {
     foot_origin: DVec3,
     chin: f64,
     small: f64,
+    head_size: f64,
+    foot_size: f64,
+    /// Factor on roundings.
+    fine: f64,
+    /// Depth by which the breasts are sunk into the trunk, metres.
+    flat: f64,
+    /// Distance from the middle from which on there can be an arm, metres.
+    arm_from: f64,
 }
 
 impl Field {
@@ -37,46 +55,53 @@ impl Field {
     pub fn new(figure: &Figure) -> Self {
         let (wide, deep) = (figure.width(level::BUST), figure.depth(level::BUST));
         let [x, up, down, z] = nominal::BREAST_AXES;
+        let child = figure.factors.child;
+        let [foot_x, foot_z] = nominal::FOOT_ORIGIN;
         Self {
             trunk: trunk(figure),
             arm: arm(figure),
             hand: Hand::new(figure),
             foot: foot(),
-            head: head(),
+            head: head(figure),
             modelling: nominal::MODELLING.iter().map(|s| carried(s, figure)).collect(),
-            face: nominal::FACE.to_vec(),
+            face: nominal::FACE.iter().map(|s| of_face(s, figure)).collect(),
             joint: figure.shoulder_joint(),
             along: figure.arm_direction(),
             outward: figure.arm_outward(),
             breast_centre: figure.point(nominal::BREAST_CENTRE),
             breast_axes: [x * wide, up * wide, down * wide, z * deep],
             foot_origin: DVec3::new(
-                nominal::FOOT_ORIGIN[0] + 0.032 * (figure.factors.girth[0] - 1.0),
+                foot_x + 0.032 * (figure.factors.girth[0] - 1.0) - 0.075 * (1.0 - figure.gap()),
                 0.0,
-                nominal::FOOT_ORIGIN[1],
+                child.mixed(foot_z, foot_z * figure.foot()),
             ),
             chin: figure.y(level::CHIN),
             small: figure.small(),
+            head_size: figure.head(),
+            foot_size: figure.foot(),
+            fine: figure.fine(),
+            flat: child.mixed(0.0, SUNK),
+            arm_from: child.mixed(0.06, 0.06 * figure.small()),
         }
     }
 
     /// Approximate signed distance to the skin, metres.
     pub fn value(&self, p: DVec3) -> f64 {
         let p = DVec3::new(p.x.abs(), p.y, p.z);
-        let mut d = self.trunk.distance(p.y, p.x.hypot(CLEFT), p.z);
+        let mut d = self.trunk.distance(p.y, p.x.hypot(CLEFT * self.fine), p.z);
         if p.y > self.chin - 0.60 * self.small {
-            d = blended(d, self.breast(p), 0.075);
+            d = blended(d, self.breast(p) + self.flat, 0.075 * self.fine);
         }
-        if p.x > 0.06 {
-            d = blended(d, self.arm(p), 0.046);
+        if p.x > self.arm_from {
+            d = blended(d, self.arm(p), 0.046 * self.fine);
         }
         if p.y < 0.20 {
-            d = blended(d, self.foot(p), 0.035);
+            d = blended(d, self.foot(p), 0.035 * self.fine);
         }
-        let q = DVec3::new(p.x, p.y - self.chin, p.z) / self.small + DVec3::new(0.0, level::CHIN, 0.0);
+        let q = DVec3::new(p.x, p.y - self.chin, p.z) / self.head_size + DVec3::new(0.0, level::CHIN, 0.0);
         if q.y > level::CHIN - 0.08 {
             let head = self.head.distance(q.y, q.x, q.z) - swellings(&self.face, q);
-            d = blended(d, head * self.small, 0.030);
+            d = blended(d, head * self.head_size, 0.030 * self.fine);
         }
         d - swellings(&self.modelling, p)
     }
@@ -149,11 +174,11 @@ impl Field {
     }
 
     fn foot(&self, p: DVec3) -> f64 {
-        let q = (p - self.foot_origin) / self.small;
+        let q = (p - self.foot_origin) / self.foot_size;
         let (sin, cos) = nominal::FOOT_TURN.sin_cos();
         let (s, u) = (q.z * cos + q.x * sin, q.x * cos - q.z * sin);
         // The sole is cut flat a little above the lowest point of the sections.
-        cut(self.foot.distance(s, u, q.y), -q.y, 0.008) * self.small
+        cut(self.foot.distance(s, u, q.y), -q.y, 0.008) * self.foot_size
     }
 }
 
@@ -173,8 +198,18 @@ fn swellings(all: &[Swelling], p: DVec3) -> f64 {
         .sum()
 }
 
+/// A feature of the face: flatter and lower down on a child's.
+fn of_face(s: &Swelling, figure: &Figure) -> Swelling {
+    let child = figure.factors.child;
+    let [x, y, z] = s.centre;
+    let low = level::CHIN + SMALL_FACE_AT * (y - level::CHIN);
+    Swelling { centre: [x, child.mixed(y, low), z], height: s.height * child.mixed(1.0, SMALL_FACE), ..*s }
+}
+
 fn carried(s: &Swelling, figure: &Figure) -> Swelling {
-    Swelling { centre: figure.point(s.centre).into(), ..*s }
+    let fine = figure.fine();
+    let height = s.height * fine * figure.factors.child.mixed(1.0, SMALL_MODELLING);
+    Swelling { centre: figure.point(s.centre).into(), reach: s.reach.map(|r| r * fine), height }
 }
 
 fn trunk(figure: &Figure) -> Loft {
@@ -183,7 +218,7 @@ fn trunk(figure: &Figure) -> Loft {
         .map(|&[y, inner, outer, centre, z, front, back, exponent]| {
             let (width, depth) = (figure.width(y), figure.depth(y));
             // The gap between the legs stays: thicker legs are further out.
-            let new_inner = if inner > 0.0 { inner } else { inner * width };
+            let new_inner = if inner > 0.0 { inner * figure.gap() } else { inner * width };
             let new_centre = new_inner + (centre - inner) * width;
             Section {
                 at: figure.y(y),
@@ -194,7 +229,7 @@ fn trunk(figure: &Figure) -> Loft {
             }
         })
         .collect();
-    Loft::new(&sections, [0.02, 0.05])
+    Loft::new(&sections, [0.02, 0.05].map(|cap| cap * figure.fine()))
 }
 
 fn arm(figure: &Figure) -> Loft {
@@ -212,7 +247,7 @@ fn arm(figure: &Figure) -> Loft {
             }
         })
         .collect();
-    Loft::new(&sections, [0.045, 0.010])
+    Loft::new(&sections, [0.045, 0.010].map(|cap| cap * figure.fine()))
 }
 
 fn foot() -> Loft {
@@ -229,13 +264,14 @@ fn foot() -> Loft {
     Loft::new(&sections, [0.030, 0.042])
 }
 
-fn head() -> Loft {
+fn head(figure: &Figure) -> Loft {
     let sections: Vec<Section> = nominal::HEAD
         .iter()
-        .map(|&[y, half_width, z, front, back, exponent]| Section {
+        .zip(SMALL_CHEEKS)
+        .map(|(&[y, half_width, z, front, back, exponent], cheeks)| Section {
             at: y,
             centre: [0.0, z],
-            u: [half_width; 2],
+            u: [half_width * figure.factors.child.mixed(1.0, cheeks); 2],
             v: [back, front],
             exponent,
         })

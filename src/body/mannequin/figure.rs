@@ -2,6 +2,7 @@
 
 use glam::DVec3;
 
+use super::childhood::Childhood;
 use super::measurements::Measurements;
 use super::proportions::{self as nominal, level};
 use super::spline::Spline;
@@ -21,7 +22,14 @@ pub struct Factors {
     pub lower: f64,
     /// Factor on the total height.
     pub height: f64,
+    /// What is a child's. It follows from the height wanted, and is not corrected.
+    pub child: Childhood,
 }
+
+/// Height of a small child's shoulder tips as a share of the way from waist to chin.
+const SMALL_SHOULDER: f64 = 0.80;
+/// Factor on the gap between a small child's legs.
+const SMALL_GAP: f64 = 0.8;
 
 /// Heights on the default figure at which the entries of `Factors::girth` apply, metres.
 pub const GIRTH_LEVELS: [f64; 10] = [
@@ -59,7 +67,13 @@ impl Factors {
             arm_length: m.arm_length / u.arm_length,
             lower: m.waist_to_ankle / u.waist_to_ankle,
             height: m.height / u.height,
+            child: Childhood::of(m.height),
         }
+    }
+
+    /// What grows with the square root of a girth's factor, in proportion to the height.
+    fn fuller(&self, factor: f64) -> f64 {
+        (factor * self.height).sqrt()
     }
 }
 
@@ -86,13 +100,16 @@ impl Figure {
             knots.push((level::CROWN, g[9]));
             Spline::new(knots.into_iter())
         };
+        let child = factors.child;
         let total = factors.height;
         let crown = level::CROWN * total;
         let waist = level::WAIST * factors.lower;
-        // Above the waist heights stretch evenly; the head keeps the scale of the whole body.
-        let chin = crown - (level::CROWN - level::CHIN) * total;
+        // Above the waist heights stretch evenly; the head keeps the scale of the whole body, or is a child's.
+        let chin = crown - (level::CROWN - level::CHIN) * (total * child.head);
         let shoulder =
             waist + (chin - waist) * (level::SHOULDER - level::WAIST) / (level::CHIN - level::WAIST);
+        // A child's neck is short.
+        let shoulder = child.mixed(shoulder, waist + SMALL_SHOULDER * (chin - waist));
         let heights = [
             (0.0, 0.0),
             (0.5 * level::WAIST, 0.5 * waist),
@@ -103,8 +120,11 @@ impl Figure {
         ];
         Self {
             factors,
-            width: stretched(g[8].powf(0.6), factors.shoulder),
-            depth: stretched(g[8].powf(1.4), g[8].sqrt()),
+            width: stretched(child.mixed(g[8].powf(0.6), g[8]), factors.shoulder),
+            depth: stretched(
+                child.mixed(g[8].powf(1.4), g[8]),
+                child.mixed(g[8].sqrt(), factors.fuller(g[8])),
+            ),
             height: Spline::new(heights.into_iter()),
         }
     }
@@ -135,14 +155,40 @@ impl Figure {
         DVec3::new(x * self.factors.shoulder, self.y(y), z * self.depth(y))
     }
 
-    /// Scale factor of head, hands and feet.
+    /// Scale factor of what is as large as the whole body.
     pub fn small(&self) -> f64 {
         self.factors.height
     }
 
+    /// Scale factor of the head.
+    pub fn head(&self) -> f64 {
+        self.small() * self.factors.child.head
+    }
+
+    /// Scale factor of the hands.
+    pub fn hand(&self) -> f64 {
+        self.small() * self.factors.child.hand
+    }
+
+    /// Scale factor of the feet.
+    pub fn foot(&self) -> f64 {
+        self.small() * self.factors.child.foot
+    }
+
+    /// Scale factor of roundings and modelling, which grown figures of all sizes have alike.
+    pub fn fine(&self) -> f64 {
+        self.factors.child.mixed(1.0, self.small())
+    }
+
+    /// Factor on the gap between the legs.
+    pub fn gap(&self) -> f64 {
+        self.factors.child.mixed(1.0, SMALL_GAP)
+    }
+
     /// Angle between the arms and straight down, radians: wider where arms and bust are fuller, so that they stay apart.
     fn arm_angle(&self) -> f64 {
-        let fuller = |factor: f64| (factor - 1.1).clamp(0.0, 0.5);
+        let child = self.factors.child;
+        let fuller = |factor: f64| (child.mixed(factor, factor / self.small()) - 1.1).clamp(0.0, 0.5);
         nominal::ARM_ANGLE + 0.4 * fuller(self.factors.girth[8]) + 0.4 * fuller(self.factors.arm[0])
     }
 
@@ -163,20 +209,20 @@ impl Figure {
         if s <= wrist {
             s * self.factors.arm_length
         } else {
-            wrist * self.factors.arm_length + (s - wrist) * self.small()
+            wrist * self.factors.arm_length + (s - wrist) * self.hand()
         }
     }
 
     /// Factor on the arm's thickness at `s` metres along the arm of the default figure.
     pub fn arm_thickness(&self, s: f64) -> f64 {
         let [upper, wrist] = self.factors.arm;
-        let top = upper.sqrt();
+        let top = self.factors.child.mixed(upper.sqrt(), self.factors.fuller(upper));
         let knots = [
             (0.0, top),
             (nominal::UPPER_ARM_AT, upper),
             (nominal::WRIST_AT, wrist),
-            (0.60, 0.5 * (wrist + self.small())),
-            (0.68, self.small()),
+            (0.60, 0.5 * (wrist + self.hand())),
+            (0.68, self.hand()),
         ];
         let i = knots.partition_point(|k| k.0 <= s).clamp(1, knots.len() - 1);
         let ((x0, y0), (x1, y1)) = (knots[i - 1], knots[i]);

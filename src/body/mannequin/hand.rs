@@ -19,6 +19,8 @@ const WEB: f64 = 0.003;
 pub struct Hand {
     joints: Vec<[(DVec3, f64); 4]>,
     starts_at: f64,
+    /// Factor on the fillets.
+    fine: f64,
 }
 
 impl Hand {
@@ -33,7 +35,7 @@ impl Hand {
             let slope = (spline.value(last) - spline.value(last - 0.03)) / 0.03;
             spline.value(s) + slope * (s - last).max(0.0)
         };
-        let scale = figure.small();
+        let scale = figure.hand();
         let joints = nominal::FINGERS
             .iter()
             .map(|chain| {
@@ -44,7 +46,7 @@ impl Hand {
                 })
             })
             .collect();
-        Self { joints, starts_at: figure.along_arm(0.54) }
+        Self { joints, starts_at: figure.along_arm(0.54), fine: figure.fine() }
     }
 
     /// Signed distance at `p` (in the arm's frame) to the arm with its fingers; `arm` is the distance to the arm alone.
@@ -52,11 +54,12 @@ impl Hand {
         if p.x < self.starts_at {
             return arm;
         }
+        let fine = self.fine;
         let fingers = self.joints.iter().fold(f64::INFINITY, |d, chain| {
             let bones = chain.windows(2).map(|w| tapered(p, w[0], w[1]));
-            joined(d, bones.fold(f64::INFINITY, |a, b| joined(a, b, KNUCKLE)), WEB)
+            joined(d, bones.fold(f64::INFINITY, |a, b| joined(a, b, KNUCKLE * fine)), WEB * fine)
         });
-        blended(arm, fingers, PALM)
+        blended(arm, fingers, PALM * fine)
     }
 }
 

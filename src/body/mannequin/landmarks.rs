@@ -156,7 +156,7 @@ pub fn skeleton(figure: &Figure, field: &Field) -> Skeleton {
         );
         let knee = s.add(named("knee"), Some(hip), leg(level::KNEE));
         let ankle = s.add(named("ankle"), Some(knee), leg(level::ANKLE_BONE));
-        let toes = leg(level::ANKLE_BONE) + DVec3::new(sign * 0.026, -0.052, 0.165) * figure.small();
+        let toes = leg(level::ANKLE_BONE) + DVec3::new(sign * 0.026, -0.052, 0.165) * figure.foot();
         s.add(named("toes"), Some(ankle), toes);
     }
     s

@@ -1,9 +1,10 @@
 //! The built-in mannequin: a dressmaker's full figure, made to measurements by our own formulas.
 //!
-//! `proportions` draws a figure as tables of sections, `figure` stretches them, `field` joins them to one smooth skin,
+//! `proportions` draws a figure as tables of sections, `figure` stretches them, `childhood` tells what differs on children, `field` joins them to one smooth skin,
 //! `fit` corrects the stretch until the tape reads what was asked for, `polygonise` and `remesh` turn the skin's left
 //! half into even triangles, which are mirrored. The same measurements give the same bits.
 
+mod childhood;
 mod counterpart;
 mod editing;
 mod field;
@@ -11,6 +12,7 @@ mod figure;
 mod fit;
 mod hand;
 mod landmarks;
+mod limits;
 mod loft;
 mod measurements;
 mod partial;
@@ -25,7 +27,8 @@ use std::sync::{Arc, Mutex, OnceLock};
 use glam::DVec3;
 
 pub use counterpart::Counterpart;
-pub use measurements::{Measurements, OutOfRange};
+pub use limits::OutOfRange;
+pub use measurements::Measurements;
 
 use super::closest::closest_on_triangle;
 use super::landmarks::Landmarks;
@@ -120,9 +123,12 @@ fn wanted_edge(figure: &Figure, p: DVec3) -> f64 {
     let plain = EDGE * (0.5 * (hip + bust) / k).sqrt();
     let q = DVec3::new(p.x.abs(), p.y, p.z) - figure.shoulder_joint();
     let beyond_forearm = (q.dot(figure.arm_direction()) - figure.along_arm(0.46)) / k;
-    let arm = if q.x > 0.0 { plain - 0.062 * beyond_forearm.max(0.0) } else { plain };
+    // A child's legs are further out than its shoulder joints.
+    let beside = figure.factors.child.mixed(0.0, 0.10 * k);
+    let arm = if q.x > beside { plain - 0.062 * beyond_forearm.max(0.0) } else { plain };
     let foot = 0.0085 + 0.05 * (p.y / k - 0.05).max(0.0);
     let face = if p.z > 0.0 { 0.010 - 0.03 * p.z } else { 0.010 };
+    let face = face * figure.factors.child.head;
     let head = face + 0.06 * (figure.y(proportions::level::CHIN) - p.y).max(0.0) / k;
     k * arm.min(foot).min(head).clamp(FINGER_EDGE, plain)
 }

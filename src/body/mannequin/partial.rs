@@ -1,6 +1,7 @@
 //! Completes a partial set of measurements: those not given follow from the others.
 
 use super::Measurements;
+use super::childhood;
 
 /// Measurements of the upper body that follow the bust.
 const OF_BUST: [&str; 3] = ["neck", "upper arm", "wrist"];
@@ -9,12 +10,16 @@ const OF_HIP: [&str; 5] = ["upper thigh", "mid-thigh", "knee", "calf", "ankle"];
 
 impl Measurements {
     /// The measurements completed from those that `given` knows, by the names of [`Measurements::named`], in metres. The others
-    /// are in proportion as on the default figure: lengths and trunk girths to the height, girths of neck and arms to the bust,
-    /// of legs to the hip; the abdomen is between waist and hip. The result may be out of range: see [`Measurements::check`].
+    /// are in proportion as on the default figure, or, below 1.40 m, as on the usual child of the height: lengths and trunk
+    /// girths to the height, girths of neck and arms to the bust, of legs to the hip; the abdomen is between waist and hip.
+    /// The result may be out of range: see [`Measurements::check`].
     pub fn completed(given: impl Fn(&str) -> Option<f64>) -> Self {
         let usual = Self::default();
         let tall = given("height").map_or(1.0, |height| height / usual.height);
-        let great = |name: &str, usual: f64| given(name).unwrap_or(usual * tall);
+        let factors = childhood::usual(given("height").unwrap_or(usual.height));
+        let names = usual.named().map(|(name, _)| name);
+        let child = |name: &str| names.iter().position(|own| *own == name).map_or(1.0, |i| factors[i]);
+        let great = |name: &str, usual: f64| given(name).unwrap_or(usual * tall * child(name));
         let [bust, waist, hip] = [("bust", usual.bust), ("waist", usual.waist), ("hip", usual.hip)]
             .map(|(name, x)| great(name, x));
         let share = (usual.abdomen - usual.waist) / (usual.hip - usual.waist);
@@ -23,9 +28,9 @@ impl Measurements {
             "waist" => waist,
             "hip" => hip,
             "abdomen" => waist + share * (hip - waist),
-            _ if OF_BUST.contains(&name) => value * bust / usual.bust,
-            _ if OF_HIP.contains(&name) => value * hip / usual.hip,
-            _ => value * tall,
+            _ if OF_BUST.contains(&name) => value * (child(name) / child("bust")) * bust / usual.bust,
+            _ if OF_HIP.contains(&name) => value * (child(name) / child("hip")) * hip / usual.hip,
+            _ => value * tall * child(name),
         };
         let mut figure = usual;
         for (name, value) in figure.named_mut() {

@@ -58,6 +58,17 @@ fn tall() -> Measurements {
     }
 }
 
+/// The measurements that are in proportion to those of a size.
+fn sized(height: f64, [bust, waist, hip]: [f64; 3]) -> Measurements {
+    let given = [("height", height), ("bust", bust), ("waist", waist), ("hip", hip)];
+    Measurements::completed(|name| given.iter().find(|(known, _)| *known == name).map(|(_, metres)| *metres))
+}
+
+/// Children of 98, 116 and 134 cm.
+fn children() -> [Measurements; 3] {
+    [sized(0.98, [0.55, 0.525, 0.57]), sized(1.16, [0.60, 0.56, 0.635]), sized(1.34, [0.67, 0.61, 0.72])]
+}
+
 /// The first crossing of a ray with the mesh, by looking at every triangle.
 fn first_hit(mesh: &TriMesh, origin: DVec3, direction: DVec3) -> f64 {
     (0..mesh.triangles.len())
@@ -123,7 +134,8 @@ fn check_mesh(m: &Measurements) {
     let count = mesh.triangles.len();
     assert!((20_000..=30_000).contains(&count), "{count} triangles");
     assert!(remesh::is_ball(mesh));
-    assert!(mesh.volume() > 0.04, "{} cubic metres", mesh.volume());
+    let cube = (m.height / Measurements::default().height).powi(3);
+    assert!(mesh.volume() > 0.04 * cube, "{} cubic metres", mesh.volume());
     let adjacency = Adjacency::new(mesh.positions.len(), &mesh.triangles);
     assert_eq!(mesh.positions.len() + count, adjacency.edges.len() + 2, "Euler characteristic");
     assert_eq!(components(mesh, &adjacency), 1);
@@ -183,8 +195,41 @@ fn other_bodies_measure_what_they_should() {
 }
 
 #[test]
+fn children_measure_what_they_should() {
+    children().iter().for_each(check_measurements);
+}
+
+#[test]
+fn children_are_proportioned_as_children() {
+    for (child, share) in children().iter().zip([0.196, 0.1775, 0.1365]) {
+        let body = mannequin(child).expect("a body");
+        let y = |name: &str| body.landmarks.get(name).expect(name).y;
+        let chin = body.skeleton.position("crown").expect("crown").y
+            - Figure::new(fit::factors(child, wanted_edge).expect("factors")).y(proportions::level::CHIN);
+        assert!((chin / child.height - share).abs() < 0.002, "a head of {chin} m on {} m", child.height);
+        assert!(y("crotch") < 0.47 * child.height, "legs of {} m", y("crotch"));
+        // No breasts: the chest is as deep at the bust points as in its middle.
+        let z = |name: &str| body.landmarks.get(name).expect(name).z;
+        assert!(z("bust_point_left") < z("bust_front") + 0.002);
+    }
+}
+
+#[test]
+fn a_child_just_under_the_limit_is_as_a_grown_figure_just_over_it() {
+    let [below, above] = [1.39, 1.41].map(|height| sized(height, [0.70, 0.63, 0.75]));
+    for ((name, one), (_, other)) in below.named().into_iter().zip(above.named()) {
+        assert!((one / other - 1.0).abs() < 0.02, "{name}: {one} and {other}");
+    }
+    let [below, above] = [below, above].map(|m| mannequin(&m).expect("a body"));
+    for (name, p) in below.landmarks.iter() {
+        let apart = p.distance(above.landmarks.get(name).expect(name));
+        assert!(apart < 0.025, "{name} is {apart} m apart");
+    }
+}
+
+#[test]
 fn meshes_are_closed_even_and_of_one_piece() {
-    for m in [Measurements::default(), small(), large(), tall()] {
+    for m in [Measurements::default(), small(), large(), tall()].into_iter().chain(children()) {
         check_mesh(&m);
     }
 }
@@ -212,7 +257,7 @@ fn the_same_measurements_give_the_same_bits() {
 
 #[test]
 fn limbs_keep_apart() {
-    for m in [Measurements::default(), small(), large(), tall()] {
+    for m in [Measurements::default(), small(), large(), tall()].into_iter().chain(children()) {
         let body = mannequin(&m).expect("a body");
         let mark = |name: &str| body.landmarks.get(name).expect(name);
         // At bust height the section is trunk and two arms.
@@ -223,13 +268,19 @@ fn limbs_keep_apart() {
         let down = crotch.y - 0.04 * m.height;
         let inner =
             |sign: f64| first_hit(&body.mesh, DVec3::new(0.0, down, crotch.z), DVec3::new(sign, 0.0, 0.0));
-        assert!(inner(1.0) + inner(-1.0) > 0.03, "{} m between the thighs", inner(1.0) + inner(-1.0));
+        let between = inner(1.0) + inner(-1.0);
+        // As a share of the height, or that of a tall figure.
+        assert!(between > 0.03 * (m.height / 1.66).min(1.0), "{between} m between the thighs");
     }
 }
 
 #[test]
 fn landmarks_lie_on_the_skin_in_order() {
-    let m = default();
+    check_landmarks(&default());
+    children().iter().for_each(|child| check_landmarks(&mannequin(child).expect("a body")));
+}
+
+fn check_landmarks(m: &Mannequin) {
     let y = |name: &str| m.landmarks.get(name).expect(name).y;
     let downwards = [
         "crown",
@@ -260,7 +311,7 @@ fn landmarks_lie_on_the_skin_in_order() {
 
 #[test]
 fn the_skin_does_not_cross_itself() {
-    for m in [Measurements::default(), small(), large()] {
+    for m in [Measurements::default(), small(), large()].into_iter().chain(children()) {
         assert_eq!(crossings(&mannequin(&m).expect("a body").mesh), 0);
     }
 }

@@ -31,10 +31,21 @@ fn the_built_pose_is_the_built_body() {
 
 #[test]
 fn every_pose_keeps_the_body_full_and_its_bones_long() {
-    let rig = usual();
+    check_poses(&usual());
+}
+
+#[test]
+fn poses_of_a_child_do_so_too() {
+    let given = [("height", 1.10), ("bust", 0.58), ("waist", 0.55), ("hip", 0.61)];
+    let child =
+        Measurements::completed(|name| given.iter().find(|(known, _)| *known == name).map(|(_, x)| *x));
+    check_poses(&rig(&child).expect("a child"));
+}
+
+fn check_poses(rig: &Rig) {
     let built = rig.figure();
     for pose in NamedPose::ALL {
-        let posed = posed(pose);
+        let posed = rig.posed(&pose.pose(&built.skeleton)).expect("a pose");
         let volume = posed.surface.mesh.volume() / built.mesh.volume();
         // Deep bends press the skin into itself at groin and knee.
         let bends = [NamedPose::Running, NamedPose::Sitting, NamedPose::KungFu].contains(&pose);

@@ -98,7 +98,8 @@ pub struct BodyFile {
 #[derive(Clone, Debug, Default, Args)]
 pub struct SizeOptions {
     /// A table of sizes (CSV): a row for each size, its name in the first column, and a measurement of the mannequin in each
-    /// other column, in cm or the unit that the column's title names; measurements that it leaves out are in proportion
+    /// other column, in cm or the unit that the column's title names; measurements that it leaves out are in proportion. Built in
+    /// are sizes:adults (xs to xxl) and sizes:children (98 to 164)
     #[arg(long, value_name = "CSV", requires = "body_size")]
     pub sizes: Option<PathBuf>,
     /// Takes the mannequin in the size of this name in the table
@@ -437,7 +438,7 @@ fn maps(text: &str) -> Result<Maps, String> {
 pub struct Sizes {
     /// Project whose pattern has a size run
     pub project: PathBuf,
-    /// A table of sizes (CSV, as for dress): a body for each size of the run, by its name
+    /// A table of sizes (CSV or built in, as for dress): a body for each size of the run, by its name
     #[arg(long, value_name = "CSV")]
     pub sizes: Option<PathBuf>,
     /// Puts all sizes on this body (OBJ, glTF); "mannequin" is the built-in figure; left out, on that of the project
@@ -561,7 +562,8 @@ pub struct Import {
 /// textures beside it) or .usdz
 #[derive(Debug, Args)]
 pub struct Export {
-    /// A project, a pattern or a sample (sample:NAME); for .obj, .glb, .usda and .usdz a dressed project
+    /// A project, a pattern or a sample (sample:NAME); for .obj, .glb, .usda and .usdz a dressed project; or a built-in table of
+    /// sizes (sizes:adults, sizes:children), for .csv
     pub project: PathBuf,
     /// The file to write; its ending gives the format
     #[arg(short, long, visible_alias = "out", value_name = "FILE")]

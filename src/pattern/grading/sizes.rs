@@ -116,13 +116,13 @@ pub const READY_SIZES: [ReadySizes; 7] = [
     ReadySizes { title: "Women, US 0 to 14", names: &["0", "2", "4", "6", "8", "10", "12", "14"], base: "6" },
     ReadySizes { title: "Women, UK 6 to 18", names: &["6", "8", "10", "12", "14", "16", "18"], base: "10" },
     ReadySizes {
-        title: "Children, 92 to 146 cm",
-        names: &["92", "98", "104", "110", "116", "122", "128", "134", "140", "146"],
+        title: "Children, 98 to 164 cm",
+        names: &["98", "104", "110", "116", "122", "128", "134", "140", "146", "152", "158", "164"],
         base: "116",
     },
     ReadySizes {
-        title: "Babies, 50 to 86 cm",
-        names: &["50", "56", "62", "68", "74", "80", "86"],
+        title: "Babies, 50 to 92 cm",
+        names: &["50", "56", "62", "68", "74", "80", "86", "92"],
         base: "68",
     },
 ];

@@ -4,26 +4,42 @@ use std::sync::Arc;
 
 use crate::body::Mannequin;
 use crate::draft::{
-    Bodice, Bottom, Collar, Design, Dolman, Form, Hem, Hood, Kind, Neckline, NecklineShape, Shape, Skirt,
-    Sleeve, Top, Trousers, Upper, Waist,
+    self, Bodice, Bottom, Collar, Design, Dolman, Dungarees, Form, Hem, Hood, Kind, Neckline, NecklineShape,
+    Opening, Shape, Skirt, Sleeve, Top, Trousers, Upper, Waist,
 };
 use crate::io::sheet;
+use crate::pattern::Pattern;
 use crate::session::dyes::{Dye, Motif, Print};
-use crate::session::samples::draft;
+use crate::session::samples::draft::finish;
 use crate::session::{BodyChoice, Document};
 
 /// A garment of the gallery: its cut, fabric and colours.
 pub struct Garment {
-    design: Design,
+    cut: Cut,
     fabric: &'static str,
     dye: Dye,
+}
+
+/// How a garment of the gallery is cut.
+enum Cut {
+    Design(Design),
+    Dungarees(Dungarees),
+}
+
+impl Cut {
+    fn drafted(&self, form: &Form) -> Pattern {
+        match self {
+            Self::Design(design) => design.drafted(form),
+            Self::Dungarees(cut) => draft::dungarees(form, cut),
+        }
+    }
 }
 
 /// A document with `garment` drafted for `body`. Panics where it lacks a landmark, which does not happen: this program builds it.
 pub fn document(garment: &Garment, body: &Mannequin) -> Document {
     let form = Form::of(body).expect("a mannequin has its landmarks");
-    let mut pattern = garment.design.drafted(&form);
-    draft::finish(&mut pattern);
+    let mut pattern = garment.cut.drafted(&form);
+    finish(&mut pattern);
     sheet::lay_out(&mut pattern);
     let mut document = Document {
         pattern: Arc::new(pattern),
@@ -41,7 +57,7 @@ pub fn blouse() -> Garment {
     let collar = Collar { height: 0.060, flare: 1.15 };
     let sleeve = Sleeve { puff: 1.12, cuff: Some(0.05), gather: 1.35, ..sleeve(0.88) };
     let upper = Upper { collar: Some(collar), sleeve: Some(sleeve), ..upper(bodice, close()) };
-    Garment { design: top(Kind::Collared, upper), fabric: "polyester", dye: dyed([222, 214, 232]) }
+    Garment { cut: Cut::Design(top(Kind::Collared, upper)), fabric: "polyester", dye: dyed([222, 214, 232]) }
 }
 
 /// A roomy top with a hood.
@@ -50,14 +66,14 @@ pub fn hoodie() -> Garment {
     let hood = Hood { above: 0.03, fullness: 0.02 };
     let sleeve = Sleeve { ease: 0.13, cuff: Some(0.05), gather: 1.2, ..sleeve(0.9) };
     let upper = Upper { hood: Some(hood), sleeve: Some(sleeve), ..upper(bodice, close()) };
-    Garment { design: top(Kind::Hooded, upper), fabric: "fleece", dye: dyed([92, 112, 104]) }
+    Garment { cut: Cut::Design(top(Kind::Hooded, upper)), fabric: "fleece", dye: dyed([92, 112, 104]) }
 }
 
 /// A top whose raglan sleeves reach up to the neckline.
 pub fn raglan() -> Garment {
     let bodice = Bodice { bust_ease: 0.14, hem_ease: 0.10, ..boxy(Hem::Hip) };
     let upper = Upper { raglan: true, sleeve: Some(sleeve(0.55)), ..upper(bodice, round()) };
-    Garment { design: top(Kind::Raglan, upper), fabric: "jersey", dye: dyed([196, 92, 70]) }
+    Garment { cut: Cut::Design(top(Kind::Raglan, upper)), fabric: "jersey", dye: dyed([196, 92, 70]) }
 }
 
 /// A wide top with its sleeves in one piece.
@@ -68,7 +84,7 @@ pub fn kimono() -> Garment {
     let design = Design { top: Some(Top::Dolman(cut, neckline)), ..plain(Kind::Dolman) };
     let print = Print { motif: Motif::Dots, repeat_m: 0.05, colour: [226, 206, 160] };
     let dye = Dye { print: Some(print), ..dyed([58, 74, 110]) };
-    Garment { design, fabric: "woven-light", dye }
+    Garment { cut: Cut::Design(design), fabric: "woven-light", dye }
 }
 
 /// A long warm top with a funnel collar.
@@ -76,7 +92,7 @@ pub fn tunic() -> Garment {
     let bodice = Bodice { bust_ease: 0.18, hem_ease: 0.16, ..boxy(Hem::Tunic) };
     let collar = Collar { height: 0.075, flare: 1.05 };
     let upper = Upper { collar: Some(collar), sleeve: Some(sleeve(0.88)), ..upper(bodice, close()) };
-    Garment { design: top(Kind::Collared, upper), fabric: "wool", dye: dyed([120, 76, 66]) }
+    Garment { cut: Cut::Design(top(Kind::Collared, upper)), fabric: "wool", dye: dyed([120, 76, 66]) }
 }
 
 /// A fitted bodice on a long skirt of godets.
@@ -89,7 +105,7 @@ pub fn gown() -> Garment {
         bottom: Some(Bottom::Skirt(Skirt { shape, length: 0.8 })),
         ..plain(Kind::Dress)
     };
-    Garment { design, fabric: "satin", dye: Dye::default() }
+    Garment { cut: Cut::Design(design), fabric: "satin", dye: Dye::default() }
 }
 
 /// A bodice on wide trousers.
@@ -102,7 +118,7 @@ pub fn jumpsuit() -> Garment {
         bottom: Some(Bottom::Trousers(legs)),
         ..plain(Kind::Jumpsuit)
     };
-    Garment { design, fabric: "linen", dye: dyed([150, 160, 124]) }
+    Garment { cut: Cut::Design(design), fabric: "linen", dye: dyed([150, 160, 124]) }
 }
 
 /// Narrow trousers of knitted cloth.
@@ -114,28 +130,32 @@ pub fn leggings() -> Garment {
         waist: Waist { ease: 0.02, band: Some(0.05) },
         ..plain(Kind::Trousers)
     };
-    Garment { design, fabric: "ponte-roma", dye: dyed([52, 54, 62]) }
+    Garment { cut: Cut::Design(design), fabric: "ponte-roma", dye: dyed([52, 54, 62]) }
 }
 
 /// Short trousers.
 pub fn shorts() -> Garment {
     let legs = Trousers { length: 0.6, hip_ease: 0.09, crotch_ease: 0.035, knee_ease: 0.0, hem_ease: 0.10 };
     let design = Design { bottom: Some(Bottom::Trousers(legs)), ..plain(Kind::Shorts) };
-    Garment { design, fabric: "denim-11oz", dye: Dye::default() }
+    Garment { cut: Cut::Design(design), fabric: "denim-11oz", dye: Dye::default() }
 }
 
 /// A skirt cut from a full circle.
 pub fn circle_skirt() -> Garment {
     let print = Print { motif: Motif::Checks, repeat_m: 0.06, colour: [236, 226, 206] };
     let dye = Dye { print: Some(print), ..dyed([172, 62, 60]) };
-    Garment { design: skirt(Kind::CircleSkirt, Shape::Circle { share: 1.0 }, 0.5), fabric: "cotton", dye }
+    Garment {
+        cut: Cut::Design(skirt(Kind::CircleSkirt, Shape::Circle { share: 1.0 }, 0.5)),
+        fabric: "cotton",
+        dye,
+    }
 }
 
 /// A skirt gathered into its waistband.
 pub fn gathered_skirt() -> Garment {
     let shape = Shape::Gathered { ratio: 1.6 };
     Garment {
-        design: skirt(Kind::GatheredSkirt, shape, 0.6),
+        cut: Cut::Design(skirt(Kind::GatheredSkirt, shape, 0.6)),
         fabric: "woven-light",
         dye: dyed([206, 150, 92]),
     }
@@ -144,7 +164,53 @@ pub fn gathered_skirt() -> Garment {
 /// A skirt of three tiers.
 pub fn tiered_skirt() -> Garment {
     let shape = Shape::Levels { ratio: 1.35, count: 3 };
-    Garment { design: skirt(Kind::LevelSkirt, shape, 0.68), fabric: "linen", dye: dyed([104, 140, 160]) }
+    Garment {
+        cut: Cut::Design(skirt(Kind::LevelSkirt, shape, 0.68)),
+        fabric: "linen",
+        dye: dyed([104, 140, 160]),
+    }
+}
+
+/// A child's bodice with short puff sleeves, on a skirt gathered into its waist.
+pub fn child_dress() -> Garment {
+    let bodice = Bodice { bust_ease: 0.10, hem_ease: 0.06, ..boxy(Hem::Waist) };
+    let neckline = Neckline { shape: NecklineShape::Round, width: 0.082, drops: [0.055, 0.018] };
+    let sleeve =
+        Sleeve { length: 0.32, ease: 0.03, hem_ease: 0.06, puff: 1.25, cuff: Some(0.025), gather: 1.2 };
+    let shape = Shape::Gathered { ratio: 1.45 };
+    let design = Design {
+        top: Some(Top::Cut(Upper { sleeve: Some(sleeve), ..upper(bodice, neckline) })),
+        bottom: Some(Bottom::Skirt(Skirt { shape, length: 0.57 })),
+        ..plain(Kind::Dress)
+    };
+    let print = Print { motif: Motif::Dots, repeat_m: 0.035, colour: [250, 240, 224] };
+    let dye = Dye { print: Some(print), ..dyed([206, 84, 96]) };
+    Garment { cut: Cut::Design(design), fabric: "cotton", dye }
+}
+
+/// Trousers with a bib, and straps over the shoulders.
+pub fn dungarees() -> Garment {
+    let legs = Trousers { length: 1.82, hip_ease: 0.10, crotch_ease: 0.045, knee_ease: 0.14, hem_ease: 0.20 };
+    let cut = Dungarees {
+        legs,
+        waist_ease: 0.06,
+        band: 0.04,
+        bib: [0.13, 0.10],
+        above_bust: 0.05,
+        strap_at: 0.084,
+        strap: 0.045,
+    };
+    Garment { cut: Cut::Dungarees(cut), fabric: "denim-11oz", dye: dyed([74, 98, 138]) }
+}
+
+/// A long, roomy coat, buttoned from the collar down.
+pub fn coat() -> Garment {
+    let opening = Opening { stand: 0.03, buttons: 6, diameter: 0.025, colour: [78, 54, 38] };
+    let bodice = Bodice { bust_ease: 0.20, hem_ease: 0.50, opening: Some(opening), ..boxy(Hem::Coat) };
+    let collar = Collar { height: 0.065, flare: 1.12 };
+    let sleeve = Sleeve { ease: 0.14, hem_ease: 0.14, ..sleeve(1.0) };
+    let upper = Upper { collar: Some(collar), sleeve: Some(sleeve), ..upper(bodice, close()) };
+    Garment { cut: Cut::Design(top(Kind::Collared, upper)), fabric: "wool", dye: dyed([176, 142, 104]) }
 }
 
 fn plain(kind: Kind) -> Design {
@@ -173,6 +239,7 @@ fn boxy(hem: Hem) -> Bodice {
         centre_seams: [false, false],
         blouse: 0.0,
         short_shoulder: 0.0,
+        opening: None,
     }
 }
 

@@ -14,11 +14,15 @@ mod tshirt;
 
 use std::sync::Arc;
 
-use crate::body::Mannequin;
+use crate::body::{Mannequin, Measurements, mannequin};
+use crate::draft::CHILDREN;
 use crate::pattern::Pattern;
 use crate::session::{BodyChoice, Document, Project};
 use crate::wrap::Marks;
 use form::Form;
+
+/// Size of the child that children's samples are made for.
+const CHILD: &str = "116";
 
 /// A sample garment.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -57,11 +61,17 @@ pub enum Sample {
     GatheredSkirt,
     /// A skirt of three tiers.
     TieredSkirt,
+    /// A child's bodice with puff sleeves on a gathered skirt.
+    ChildDress,
+    /// Trousers with a bib and straps.
+    Dungarees,
+    /// A long coat that is buttoned in front.
+    Coat,
 }
 
 impl Sample {
     /// All samples, in the order of the menu.
-    pub const ALL: [Self; 17] = [
+    pub const ALL: [Self; 20] = [
         Self::Tshirt,
         Self::Skirt,
         Self::Dress,
@@ -79,6 +89,9 @@ impl Sample {
         Self::CircleSkirt,
         Self::GatheredSkirt,
         Self::TieredSkirt,
+        Self::ChildDress,
+        Self::Dungarees,
+        Self::Coat,
     ];
 
     /// Those with marks, to be wrapped; the others have their pieces placed round the body, to be dressed.
@@ -104,6 +117,9 @@ impl Sample {
             Self::CircleSkirt => "Circle skirt",
             Self::GatheredSkirt => "Gathered skirt",
             Self::TieredSkirt => "Tiered skirt",
+            Self::ChildDress => "Child's dress",
+            Self::Dungarees => "Dungarees",
+            Self::Coat => "Coat",
         }
     }
 
@@ -127,7 +143,25 @@ impl Sample {
             Self::CircleSkirt => "circle-skirt",
             Self::GatheredSkirt => "gathered-skirt",
             Self::TieredSkirt => "tiered-skirt",
+            Self::ChildDress => "child-dress",
+            Self::Dungarees => "dungarees",
+            Self::Coat => "coat",
         }
+    }
+
+    /// Measurements of the mannequin that it is made for: the default one, or a child of 116 cm.
+    pub fn measurements(self) -> Measurements {
+        let child = CHILDREN.into_iter().find(|size| size.name == CHILD);
+        match (self, child) {
+            (Self::ChildDress, Some(size)) => size.measurements(),
+            _ => Measurements::default(),
+        }
+    }
+
+    /// The sample on the mannequin that it is made for.
+    pub fn usual(self) -> Project {
+        let body = mannequin::mannequin(&self.measurements()).unwrap_or_else(|_| mannequin::default());
+        self.project(&body)
     }
 
     /// The sample drafted for `body`, with its marks or placed round the body. Panics where the measurements are those of no
@@ -159,6 +193,9 @@ impl Sample {
             Self::CircleSkirt => Cut::Placed(gallery::circle_skirt),
             Self::GatheredSkirt => Cut::Placed(gallery::gathered_skirt),
             Self::TieredSkirt => Cut::Placed(gallery::tiered_skirt),
+            Self::ChildDress => Cut::Placed(gallery::child_dress),
+            Self::Dungarees => Cut::Placed(gallery::dungarees),
+            Self::Coat => Cut::Placed(gallery::coat),
         }
     }
 }

@@ -11,7 +11,7 @@ use std::sync::Arc;
 use glam::DVec3;
 
 use crate::body::pose::motion::Clip;
-use crate::body::{Unit, UpAxis, guess_unit, import, mannequin};
+use crate::body::{Unit, UpAxis, guess_unit, import};
 use crate::geometry::mesh::TriMesh;
 use crate::io::atlas::AtlasLayout;
 use crate::io::body_file;
@@ -423,9 +423,9 @@ pub fn export(
     }
 }
 
-/// The project of a sample on the built-in figure.
+/// The project of a sample on the mannequin that it is made for.
 pub fn sample(sample: Sample) -> Project {
-    sample.project(&mannequin::default())
+    sample.usual()
 }
 
 /// The command that restores the built-in figure.

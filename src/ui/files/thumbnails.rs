@@ -38,6 +38,9 @@ const SAMPLES: [&[u8]; Sample::ALL.len()] = [
     include_bytes!("../../../assets/samples/circle-skirt.png"),
     include_bytes!("../../../assets/samples/gathered-skirt.png"),
     include_bytes!("../../../assets/samples/tiered-skirt.png"),
+    include_bytes!("../../../assets/samples/child-dress.png"),
+    include_bytes!("../../../assets/samples/dungarees.png"),
+    include_bytes!("../../../assets/samples/coat.png"),
 ];
 
 /// The subject of a thumbnail.

@@ -4,6 +4,8 @@ use std::path::Path;
 
 use egui::{Button, ComboBox, RichText};
 
+use crate::body::Measurements;
+use crate::draft::SIZE_TABLES;
 use crate::io::sizes::{self, Size};
 use crate::session::{BodyChoice, Command};
 use crate::ui::actions::Action;
@@ -38,6 +40,7 @@ impl SizePanel {
             {
                 asks.push(Ask::Act(Action::Sizes));
             }
+            ui.menu_button(tr("Usual sizes"), |ui| usual_ui(ui, &told.document.body, asks));
             let Some((name, sizes)) = &self.table else { return };
             ui.label(RichText::new(name).color(told.palette.weak).size(12.5));
             let body = &told.document.body;
@@ -61,12 +64,37 @@ fn size_ui(ui: &mut egui::Ui, size: &Size, is_taken: bool, body: &BodyChoice, as
         Ok(measurements) => {
             let words = tr("The mannequin is built to this size; marks and garment go along");
             if button.on_hover_text(words).clicked() && !is_taken {
-                asks.push(Ask::Do(match body.measurements() {
-                    Some(_) => Command::ChangeSize { measurements },
-                    None => Command::SetBody { body: BodyChoice::Mannequin(measurements), animations: None },
-                }));
+                asks.push(built_to(measurements, body));
             }
         }
         Err(why) => _ = button.on_disabled_hover_text(why.to_string()),
     }
+}
+
+/// The tables of sizes that are built in.
+fn usual_ui(ui: &mut egui::Ui, body: &BodyChoice, asks: &mut Asks) {
+    for table in SIZE_TABLES {
+        ui.menu_button(tr(table.title), |ui| {
+            for size in table.sizes {
+                let measurements = size.measurements();
+                let is_taken = body.measurements() == Some(measurements);
+                let words = tr("The mannequin is built to this size; marks and garment go along");
+                let clicked =
+                    ui.selectable_label(is_taken, size.name.to_uppercase()).on_hover_text(words).clicked();
+                if clicked {
+                    ui.close();
+                }
+                if clicked && !is_taken {
+                    asks.push(built_to(measurements, body));
+                }
+            }
+        });
+    }
+}
+
+fn built_to(measurements: Measurements, body: &BodyChoice) -> Ask {
+    Ask::Do(match body.measurements() {
+        Some(_) => Command::ChangeSize { measurements },
+        None => Command::SetBody { body: BodyChoice::Mannequin(measurements), animations: None },
+    })
 }
