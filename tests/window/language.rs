@@ -68,7 +68,7 @@ fn in_german_numbers_have_a_comma_and_both_signs_are_typed() {
     let mut window = window();
     edit(&mut window, |app, _| app.follow_language("de".to_owned()));
     from_menu(&mut window, "Datei", "Schnittbild…");
-    for (typed, shown) in [("2,5", "2,5"), ("3.5", "3,5"), ("4", "4")] {
+    for (typed, shown) in [("2,5", "2,5"), ("3.5", "3,5"), ("4", "4,0")] {
         enter(&mut window, Role::SpinButton, "Neigung", typed);
         window.run_steps(2);
         let found = value(&window, Role::SpinButton, "Neigung");
@@ -111,10 +111,7 @@ fn the_fit_report_is_in_the_language_of_the_window() {
     let path = folder.path().join("fit.html");
     let mut window = dressed_window();
     edit(&mut window, |app, _| app.follow_language("de".to_owned()));
-    window.get_by_label("Datei").click();
-    window.run_steps(3);
-    window.get_by_label_contains("Passformbericht…").click();
-    window.run_steps(3);
+    super::choose(&mut window, "Datei", "Passformbericht…");
     if !write_by(&mut window, "Schreiben", &path) {
         return;
     }
