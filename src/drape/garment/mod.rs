@@ -173,6 +173,8 @@ pub struct DrapedGarment {
     pulling: Option<Box<Pulling>>,
     /// Faces too near the body at the last check.
     lacking: usize,
+    /// Checks in a row that found faces too near the body although the cloth was still: raising it had no effect.
+    lifted_in_vain: i32,
     /// The garment on a graphics card, if one is used.
     card: Option<OnCard>,
     /// Whether a card has moved it.
@@ -275,6 +277,7 @@ impl DrapedGarment {
             age: GENTLE_FOR,
             pulling: None,
             lacking: 0,
+            lifted_in_vain: 0,
             card: None,
             was_on_card: false,
             counters: Counters::default(),
@@ -572,7 +575,8 @@ impl DrapedGarment {
         }
     }
 
-    /// Raises vertices of faces that come too near the body. `precise` also checks edges, once no face is too near.
+    /// Raises vertices of faces that come too near the body, twice as much after each time in vain. `precise` also checks edges,
+    /// once no face is too near.
     fn lift(&mut self, cloth: &ClothState, precise: bool) {
         let fixed = Arc::clone(&self.fixed);
         let (garment, surface) = (&*fixed.garment, &*fixed.collider.surface);
@@ -585,25 +589,28 @@ impl DrapedGarment {
         let clearance = FACE_CLEARANCE * fixed.offset;
         let lacking = self.faces.lacking(lying, &near, clearance, &mut self.counters);
         let mut raised = self.small.lift().to_vec();
+        let in_vain = self.lacking > 0 && self.quiet > 0;
+        self.lifted_in_vain = if in_vain { self.lifted_in_vain + 1 } else { 0 };
+        let times = 2.0f64.powi(self.lifted_in_vain.min(5));
         self.lacking = 0;
         for (vs, &lack) in garment.triangles.iter().zip(&lacking) {
             for v in vs.iter().filter_map(|&v| own_number(&fixed.own, v)) {
                 let most = MOST_LIFT * fixed.offset;
                 if lack > NEARLY_CLEAR * clearance && raised[v] < most {
-                    let wanted = (self.small.lift()[v] + lack).min(most);
+                    let wanted = (self.small.lift()[v] + times * lack).min(most);
                     self.lacking += usize::from(wanted > raised[v]);
                     raised[v] = raised[v].max(wanted);
                 }
             }
         }
         if precise && self.lacking == 0 {
-            self.lift_cuts(cloth, &mut raised);
+            self.lift_cuts(cloth, &mut raised, times * FACE_CLEARANCE * fixed.offset);
         }
         self.small.set_lift(&raised);
     }
 
-    /// Raises vertices of edges and faces that intersect the body: samples of a face miss the sharpest edges.
-    fn lift_cuts(&mut self, cloth: &ClothState, raised: &mut [f64]) {
+    /// Raises vertices of edges and faces that intersect the body by `by` metres: samples of a face miss the sharpest edges.
+    fn lift_cuts(&mut self, cloth: &ClothState, raised: &mut [f64], by: f64) {
         let fixed = Arc::clone(&self.fixed);
         let (garment, surface) = (&*fixed.garment, &*fixed.collider.surface);
         let laid = |vs: &[u32]| vs.iter().all(|&v| own_number(&fixed.own, v).is_some());
@@ -622,7 +629,7 @@ impl DrapedGarment {
         }
         let most = MOST_LIFT * fixed.offset;
         for (raised, _) in raised.iter_mut().zip(cut).filter(|(raised, cut)| *cut && **raised < most) {
-            *raised = (*raised + FACE_CLEARANCE * fixed.offset).min(most);
+            *raised = (*raised + by).min(most);
             self.lacking += 1;
         }
     }
