@@ -7,7 +7,7 @@ use glam::DVec2;
 
 use crate::geometry::ids::PieceId;
 use crate::geometry::polygon::distance_to_segment;
-use crate::pattern::{CutPattern, Elastic, Fold, Piece, PieceMesh, Trims};
+use crate::pattern::{CutPattern, Elastic, Fold, Piece, PieceMesh, Piping, Trims};
 
 /// The trims of a garment. Edges are given by flat corners, so that they hold for open pieces too.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -42,6 +42,13 @@ pub struct Along<T> {
     pub what: T,
 }
 
+impl Along<f64> {
+    /// Mass of a metre of the piping along the edge, kg/m.
+    pub fn kg_per_m(&self) -> f64 {
+        Piping::kg_per_m(self.what)
+    }
+}
+
 impl GarmentTrims {
     /// The trims of the pieces of `cut` with these `meshes`; `first_corner` numbers the flat corners of each piece.
     pub fn of(
@@ -69,6 +76,12 @@ impl GarmentTrims {
         self.folds.extend(worked.fold.map(|what| Along { corners, what }));
         self.elastics.extend(worked.elastic.map(|what| Along { corners, what }));
         self.piped.extend(worked.piping.map(|piping| Along { corners, what: piping.radius }));
+    }
+
+    /// Flat corners at which cloth is as stiff as a hem: those in hems and along piping. Some come more than once.
+    pub fn stiff_corners(&self) -> impl Iterator<Item = u32> {
+        let piped = self.piped.iter().flat_map(|along| along.corners);
+        self.hemmed.iter().copied().chain(piped)
     }
 
     /// The trims with corner c as corner `place[c]`.
@@ -105,5 +118,31 @@ fn hemmed(piece: &Piece, mesh: &PieceMesh) -> Vec<u32> {
     match hems.is_empty() {
         true => Vec::new(),
         false => (0..mesh.points.len() as u32).filter(|&v| is_in(at(v))).collect(),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::cloth::build;
+    use crate::pattern::{Hem, Pattern};
+
+    #[test]
+    fn cloth_is_stiff_along_piping_and_in_hems_only() {
+        let corners = [(0.0, 0.0), (0.2, 0.0), (0.2, 0.2), (0.0, 0.2)].map(DVec2::from);
+        let stiff = |change: fn(&mut Trims), is_in: fn(DVec2) -> bool| {
+            let mut piece = Piece::polygon("square", &corners);
+            change(&mut piece.outline[1].trims);
+            let mut pattern = Pattern::default();
+            pattern.add_piece(piece);
+            let garment = build(&pattern, 0.05).0;
+            let stiff: std::collections::BTreeSet<u32> = garment.trims.stiff_corners().collect();
+            for (c, corner) in garment.corners.iter().enumerate() {
+                assert_eq!(stiff.contains(&(c as u32)), is_in(corner.uv), "{}", corner.uv);
+            }
+        };
+        stiff(|trims| trims.piping = Some(Piping::USUAL), |at| at.x > 0.2 - 1e-9);
+        stiff(|trims| trims.hem = Some(Hem { width: 0.06, ..Hem::USUAL }), |at| at.x > 0.14 - 1e-9);
+        stiff(|_| (), |_| false);
     }
 }

@@ -9,7 +9,6 @@ use crate::drape::forces::folds::Folds;
 use crate::drape::sheet::Sheet;
 use crate::drape::solver::small_steps::SmallSteps;
 use crate::drape::solver::ties::Fastened;
-use crate::pattern::Piping;
 
 /// Distance of two layers that a button holds together, in thicknesses of the cloth: a little more than contact keeps them apart.
 const LAYERS_APART: f64 = 1.2;
@@ -72,8 +71,7 @@ pub(in crate::drape) fn plates(
 ) -> Vec<Plate> {
     let mut plates: Vec<Plate> = (0..count as u32).map(of).collect();
     let mut is_stiff = vec![false; count];
-    let piped = garment.trims.piped.iter().flat_map(|along| &along.corners);
-    for &corner in garment.trims.hemmed.iter().chain(piped) {
+    for corner in garment.trims.stiff_corners() {
         let v = own[garment.corners[corner as usize].vertex as usize];
         if let Some(stiff) = is_stiff.get_mut(v as usize) {
             *stiff = true;
@@ -99,7 +97,7 @@ pub(in crate::drape) fn weighted(
     for along in garment.trims.piped.iter().filter(|_| !is_sewn) {
         let [a, b] = along.corners.map(|c| garment.corners[c as usize]);
         let ends = [a.vertex.min(b.vertex), a.vertex.max(b.vertex)];
-        cords.entry(ends).or_insert_with(|| a.uv.distance(b.uv) * Piping::kg_per_m(along.what));
+        cords.entry(ends).or_insert_with(|| a.uv.distance(b.uv) * along.kg_per_m());
     }
     for (ends, kg) in cords {
         let ends = ends.map(|v| own[v as usize] as usize);
@@ -108,54 +106,4 @@ pub(in crate::drape) fn weighted(
         }
     }
     mass
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::cloth::{Fabric, build};
-    use crate::pattern::{EdgeRef, Pattern, Piece, Seam};
-    use glam::DVec2;
-
-    /// Two squares 0.2 m wide, sewn along one edge; piping of these radii on the two sides of the seam.
-    fn sewn(radii: [Option<f64>; 2]) -> Garment {
-        let mut pattern = Pattern::default();
-        let corners = [(0.0, 0.0), (0.2, 0.0), (0.2, 0.2), (0.0, 0.2)].map(DVec2::from);
-        let [a, b] = radii.map(|radius| {
-            let mut piece = Piece::polygon("square", &corners);
-            piece.outline[1].trims.piping = radius.map(|radius| Piping { radius, ..Piping::USUAL });
-            pattern.add_piece(piece)
-        });
-        let sides = [a, b].map(|piece| EdgeRef { piece, edge: 1 });
-        pattern.add_seam(Seam::of_edges(sides, false));
-        build(&pattern, 0.05).0
-    }
-
-    fn weight(garment: &Garment, is_sewn: bool) -> f64 {
-        let own: Vec<u32> = (0..garment.vertex_count as u32).collect();
-        weighted(vec![0.0; own.len()], garment, &own, is_sewn).iter().sum()
-    }
-
-    #[test]
-    fn a_seam_that_both_sides_pipe_has_the_weight_of_one_cord() {
-        let cord = 0.2 * 510.0 * std::f64::consts::PI * 0.0015 * 0.0015;
-        for radii in [[Some(0.0015), None], [None, Some(0.0015)], [Some(0.0015); 2]] {
-            let garment = sewn(radii);
-            assert!((weight(&garment, false) - cord).abs() < 1e-12, "{radii:?}");
-            assert_eq!(weight(&garment, true), 0.0);
-        }
-        assert_eq!(weight(&sewn([None; 2]), false), 0.0);
-    }
-
-    #[test]
-    fn piping_is_as_stiff_as_a_hem_at_its_vertices_only() {
-        let garment = sewn([Some(0.0015); 2]);
-        let own: Vec<u32> = (0..garment.vertex_count as u32).collect();
-        let cloth = Fabric::preset("cotton").expect("a preset").bending;
-        let stiff = |v: u32| plates(&garment, &own, own.len(), |_| cloth)[v as usize].warp / cloth.warp;
-        for corner in &garment.corners {
-            let wanted = if (corner.uv.x - 0.2).abs() < 1e-9 { HEM_STIFFNESS } else { 1.0 };
-            assert_eq!(stiff(corner.vertex), wanted, "{}", corner.uv);
-        }
-    }
 }

@@ -114,6 +114,17 @@ mod tests {
     }
 
     #[test]
+    fn other_threads_keep_their_own_language() {
+        let mut languages = Languages::default();
+        languages.take_system("de_AT".to_owned());
+        crate::language::show(languages.table(&Language::default()));
+        assert_eq!(crate::language::tr("Undo"), "Rückgängig");
+        let elsewhere = std::thread::spawn(|| crate::language::tr("Undo") == "Undo").join();
+        assert!(matches!(elsewhere, Ok(true)));
+        crate::language::show(None);
+    }
+
+    #[test]
     fn the_system_is_followed_and_files_come_first() {
         let folder = tempfile::tempdir().expect("a folder");
         let mut languages = Languages::default();

@@ -324,6 +324,19 @@ mod tests {
     use crate::cloth::build;
     use crate::pattern::{Piece, PiecePoint, Piping, Topstitch};
 
+    /// The garment of `pattern`, flat, 1 m up and 3 m in front.
+    fn hung(pattern: &Pattern) -> (Arc<Garment>, ClothState) {
+        let garment = Arc::new(build(pattern, 0.02).0);
+        let mut state = ClothState {
+            positions: vec![glam::DVec3::ZERO; garment.vertex_count],
+            mapped: vec![true; garment.vertex_count],
+        };
+        for c in &garment.corners {
+            state.positions[c.vertex as usize] = glam::DVec3::new(c.uv.x, 1.0 + c.uv.y, 3.0);
+        }
+        (garment, state)
+    }
+
     #[test]
     fn stitches_and_buttons_lie_on_the_cloth_wherever_it_goes() {
         let corners = [(0.0, 0.0), (0.2, 0.0), (0.2, 0.1), (0.0, 0.1)].map(DVec2::from);
@@ -341,14 +354,7 @@ mod tests {
             open: false,
         };
         pattern.add_button(button);
-        let garment = Arc::new(build(&pattern, 0.02).0);
-        let mut state = ClothState {
-            positions: vec![glam::DVec3::ZERO; garment.vertex_count],
-            mapped: vec![true; garment.vertex_count],
-        };
-        for c in &garment.corners {
-            state.positions[c.vertex as usize] = glam::DVec3::new(c.uv.x, 1.0 + c.uv.y, 3.0);
-        }
+        let (garment, state) = hung(&pattern);
         let mut scenery = TrimScenery::default();
         let (lines, meshes) = scenery.drawn(&Arc::new(pattern), (&garment, &state), (&|_| true, None), 1.0);
         let stitches: Vec<&Polyline> = lines.iter().filter(|l| l.colour[..3] == [246, 243, 232]).collect();
@@ -369,14 +375,7 @@ mod tests {
         piece.outline[0].trims.piping = Some(piping);
         let mut pattern = Pattern::default();
         let id = pattern.add_piece(piece);
-        let garment = Arc::new(build(&pattern, 0.02).0);
-        let mut state = ClothState {
-            positions: vec![glam::DVec3::ZERO; garment.vertex_count],
-            mapped: vec![true; garment.vertex_count],
-        };
-        for c in &garment.corners {
-            state.positions[c.vertex as usize] = glam::DVec3::new(c.uv.x, 1.0 + c.uv.y, 3.0);
-        }
+        let (garment, state) = hung(&pattern);
         let mut scenery = TrimScenery::default();
         let mut drawn = |pattern: &Pattern, scale: f32| {
             let pattern = Arc::new(pattern.clone());

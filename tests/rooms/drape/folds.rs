@@ -102,8 +102,11 @@ fn panel(lines: Vec<InternalLine>) -> Pattern {
     pattern
 }
 
-/// The garment of `pattern` from where `place` lays it, hung by its upper edge far from any body, until it rests.
-fn hung(pattern: &Pattern, place: impl Fn(DVec2) -> DVec3) -> (Arc<Garment>, ClothState, DrapedGarment) {
+/// The garment of `pattern` where `place` lays it, hung by its upper edge far from any body.
+pub fn hanging(
+    pattern: &Pattern,
+    place: impl Fn(DVec2) -> DVec3,
+) -> (Arc<Garment>, ClothState, DrapedGarment) {
     let (garment, problems) = build(pattern, 0.02);
     assert!(problems.is_empty(), "{problems:?}");
     let garment = Arc::new(garment);
@@ -124,9 +127,14 @@ fn hung(pattern: &Pattern, place: impl Fn(DVec2) -> DVec3) -> (Arc<Garment>, Clo
     let settings = DrapedSettings { strain: 0.01, self_collision: true, skips: Skips::default() };
     let cotton = Fabric::preset("cotton").expect("a preset");
     let fabrics = BTreeMap::new();
-    let mut worn =
-        DrapedGarment::new(Arc::clone(&garment), &cloth, body, (&fabrics, cotton), &pins, settings)
-            .expect("it can be draped");
+    let worn = DrapedGarment::new(Arc::clone(&garment), &cloth, body, (&fabrics, cotton), &pins, settings)
+        .expect("it can be draped");
+    (garment, cloth, worn)
+}
+
+/// The same once it rests.
+fn hung(pattern: &Pattern, place: impl Fn(DVec2) -> DVec3) -> (Arc<Garment>, ClothState, DrapedGarment) {
+    let (garment, mut cloth, mut worn) = hanging(pattern, place);
     while !worn.progress().at_rest {
         worn.tick(&mut cloth).expect("it stays in place");
     }

@@ -13,6 +13,7 @@ mod moves;
 mod orders;
 mod panels;
 mod patches;
+mod piping;
 mod reference;
 mod rests;
 mod slips;
