@@ -2,6 +2,7 @@
 
 use std::io::Cursor;
 
+use crate::io::words::readable;
 use image::{ImageDecoder, ImageFormat, ImageReader, Limits, RgbaImage};
 
 /// Largest size of a picture file, bytes.
@@ -50,7 +51,7 @@ pub(super) fn in_words(error: image::ImageError) -> String {
         image::ImageError::Limits(_) => {
             format!("it is larger than {MOST_SIDE} by {MOST_SIDE} pixels, which a picture may have")
         }
-        other => format!("it cannot be read: {other}"),
+        other => format!("it cannot be read: {}", readable(&other.to_string())),
     }
 }
 

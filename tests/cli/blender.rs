@@ -121,7 +121,7 @@ fn walked() -> Option<Place> {
     let place = Place::new();
     let done = place.ends(0, "replay demo:export --out out --save skirt.toile");
     assert!(done.out.contains("hashes the same"), "{done:?}");
-    assert!(place.read("out/garment.obj").contains("skirt front"));
+    assert!(place.read("out/garment.obj").contains("skirt_front"));
     place.ends(0, "export skirt.toile -o skirt.glb --textures 256");
     Some(place)
 }

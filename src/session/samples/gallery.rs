@@ -22,8 +22,12 @@ pub struct Garment {
 
 /// How a garment of the gallery is cut.
 enum Cut {
-    Design(Design),
+    Design(Box<Design>),
     Dungarees(Dungarees),
+}
+
+fn drawn(design: Design) -> Cut {
+    Cut::Design(Box::new(design))
 }
 
 impl Cut {
@@ -57,7 +61,7 @@ pub fn blouse() -> Garment {
     let collar = Collar { height: 0.060, flare: 1.15 };
     let sleeve = Sleeve { puff: 1.12, cuff: Some(0.05), gather: 1.35, ..sleeve(0.88) };
     let upper = Upper { collar: Some(collar), sleeve: Some(sleeve), ..upper(bodice, close()) };
-    Garment { cut: Cut::Design(top(Kind::Collared, upper)), fabric: "polyester", dye: dyed([222, 214, 232]) }
+    Garment { cut: drawn(top(Kind::Collared, upper)), fabric: "polyester", dye: dyed([222, 214, 232]) }
 }
 
 /// A roomy top with a hood.
@@ -66,14 +70,14 @@ pub fn hoodie() -> Garment {
     let hood = Hood { above: 0.03, fullness: 0.02 };
     let sleeve = Sleeve { ease: 0.13, cuff: Some(0.05), gather: 1.2, ..sleeve(0.9) };
     let upper = Upper { hood: Some(hood), sleeve: Some(sleeve), ..upper(bodice, close()) };
-    Garment { cut: Cut::Design(top(Kind::Hooded, upper)), fabric: "fleece", dye: dyed([92, 112, 104]) }
+    Garment { cut: drawn(top(Kind::Hooded, upper)), fabric: "fleece", dye: dyed([92, 112, 104]) }
 }
 
 /// A top whose raglan sleeves reach up to the neckline.
 pub fn raglan() -> Garment {
     let bodice = Bodice { bust_ease: 0.14, hem_ease: 0.10, ..boxy(Hem::Hip) };
     let upper = Upper { raglan: true, sleeve: Some(sleeve(0.55)), ..upper(bodice, round()) };
-    Garment { cut: Cut::Design(top(Kind::Raglan, upper)), fabric: "jersey", dye: dyed([196, 92, 70]) }
+    Garment { cut: drawn(top(Kind::Raglan, upper)), fabric: "jersey", dye: dyed([196, 92, 70]) }
 }
 
 /// A wide top with its sleeves in one piece.
@@ -84,7 +88,7 @@ pub fn kimono() -> Garment {
     let design = Design { top: Some(Top::Dolman(cut, neckline)), ..plain(Kind::Dolman) };
     let print = Print { motif: Motif::Dots, repeat_m: 0.05, colour: [226, 206, 160] };
     let dye = Dye { print: Some(print), ..dyed([58, 74, 110]) };
-    Garment { cut: Cut::Design(design), fabric: "woven-light", dye }
+    Garment { cut: drawn(design), fabric: "woven-light", dye }
 }
 
 /// A long warm top with a funnel collar.
@@ -92,7 +96,7 @@ pub fn tunic() -> Garment {
     let bodice = Bodice { bust_ease: 0.18, hem_ease: 0.16, ..boxy(Hem::Tunic) };
     let collar = Collar { height: 0.075, flare: 1.05 };
     let upper = Upper { collar: Some(collar), sleeve: Some(sleeve(0.88)), ..upper(bodice, close()) };
-    Garment { cut: Cut::Design(top(Kind::Collared, upper)), fabric: "wool", dye: dyed([120, 76, 66]) }
+    Garment { cut: drawn(top(Kind::Collared, upper)), fabric: "wool", dye: dyed([120, 76, 66]) }
 }
 
 /// A fitted bodice on a long skirt of godets.
@@ -105,7 +109,7 @@ pub fn gown() -> Garment {
         bottom: Some(Bottom::Skirt(Skirt { shape, length: 0.8 })),
         ..plain(Kind::Dress)
     };
-    Garment { cut: Cut::Design(design), fabric: "satin", dye: Dye::default() }
+    Garment { cut: drawn(design), fabric: "satin", dye: Dye::default() }
 }
 
 /// A bodice on wide trousers.
@@ -118,7 +122,7 @@ pub fn jumpsuit() -> Garment {
         bottom: Some(Bottom::Trousers(legs)),
         ..plain(Kind::Jumpsuit)
     };
-    Garment { cut: Cut::Design(design), fabric: "linen", dye: dyed([150, 160, 124]) }
+    Garment { cut: drawn(design), fabric: "linen", dye: dyed([150, 160, 124]) }
 }
 
 /// Narrow trousers of knitted cloth.
@@ -130,32 +134,28 @@ pub fn leggings() -> Garment {
         waist: Waist { ease: 0.02, band: Some(0.05) },
         ..plain(Kind::Trousers)
     };
-    Garment { cut: Cut::Design(design), fabric: "ponte-roma", dye: dyed([52, 54, 62]) }
+    Garment { cut: drawn(design), fabric: "ponte-roma", dye: dyed([52, 54, 62]) }
 }
 
 /// Short trousers.
 pub fn shorts() -> Garment {
     let legs = Trousers { length: 0.6, hip_ease: 0.09, crotch_ease: 0.035, knee_ease: 0.0, hem_ease: 0.10 };
     let design = Design { bottom: Some(Bottom::Trousers(legs)), ..plain(Kind::Shorts) };
-    Garment { cut: Cut::Design(design), fabric: "denim-11oz", dye: Dye::default() }
+    Garment { cut: drawn(design), fabric: "denim-11oz", dye: Dye::default() }
 }
 
 /// A skirt cut from a full circle.
 pub fn circle_skirt() -> Garment {
     let print = Print { motif: Motif::Checks, repeat_m: 0.06, colour: [236, 226, 206] };
     let dye = Dye { print: Some(print), ..dyed([172, 62, 60]) };
-    Garment {
-        cut: Cut::Design(skirt(Kind::CircleSkirt, Shape::Circle { share: 1.0 }, 0.5)),
-        fabric: "cotton",
-        dye,
-    }
+    Garment { cut: drawn(skirt(Kind::CircleSkirt, Shape::Circle { share: 1.0 }, 0.5)), fabric: "cotton", dye }
 }
 
 /// A skirt gathered into its waistband.
 pub fn gathered_skirt() -> Garment {
     let shape = Shape::Gathered { ratio: 1.6 };
     Garment {
-        cut: Cut::Design(skirt(Kind::GatheredSkirt, shape, 0.6)),
+        cut: drawn(skirt(Kind::GatheredSkirt, shape, 0.6)),
         fabric: "woven-light",
         dye: dyed([206, 150, 92]),
     }
@@ -164,11 +164,7 @@ pub fn gathered_skirt() -> Garment {
 /// A skirt of three tiers.
 pub fn tiered_skirt() -> Garment {
     let shape = Shape::Levels { ratio: 1.35, count: 3 };
-    Garment {
-        cut: Cut::Design(skirt(Kind::LevelSkirt, shape, 0.68)),
-        fabric: "linen",
-        dye: dyed([104, 140, 160]),
-    }
+    Garment { cut: drawn(skirt(Kind::LevelSkirt, shape, 0.68)), fabric: "linen", dye: dyed([104, 140, 160]) }
 }
 
 /// A child's bodice with short puff sleeves, on a skirt gathered into its waist.
@@ -185,7 +181,7 @@ pub fn child_dress() -> Garment {
     };
     let print = Print { motif: Motif::Dots, repeat_m: 0.035, colour: [250, 240, 224] };
     let dye = Dye { print: Some(print), ..dyed([206, 84, 96]) };
-    Garment { cut: Cut::Design(design), fabric: "cotton", dye }
+    Garment { cut: drawn(design), fabric: "cotton", dye }
 }
 
 /// Trousers with a bib, and straps over the shoulders.
@@ -210,7 +206,7 @@ pub fn coat() -> Garment {
     let collar = Collar { height: 0.065, flare: 1.12 };
     let sleeve = Sleeve { ease: 0.14, hem_ease: 0.14, ..sleeve(1.0) };
     let upper = Upper { collar: Some(collar), sleeve: Some(sleeve), ..upper(bodice, close()) };
-    Garment { cut: Cut::Design(top(Kind::Collared, upper)), fabric: "wool", dye: dyed([176, 142, 104]) }
+    Garment { cut: drawn(top(Kind::Collared, upper)), fabric: "wool", dye: dyed([176, 142, 104]) }
 }
 
 fn plain(kind: Kind) -> Design {
