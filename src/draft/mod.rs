@@ -24,7 +24,7 @@ mod sleeve;
 mod trousers;
 
 pub use bodice::{Bodice, Hem, Opening};
-pub use collar::Collar;
+pub use collar::{Collar, Fall};
 pub use corpus::{Case, Corpus, Shard};
 pub use design::{Bottom, Design, Kind, Top, Upper, Waist};
 pub use dolman::Dolman;

@@ -173,6 +173,14 @@ impl Piece {
         &self.loop_edges(k)[i - first]
     }
 
+    /// Whether cloth is turned over along an edge or internal line of the piece, see
+    /// [`Fold::turns_over`](crate::pattern::Fold::turns_over).
+    pub fn turns_over(&self) -> bool {
+        let closed = self.outline.iter().chain(self.holes.iter().flatten());
+        let edges = closed.chain(self.lines.iter().flat_map(|line| &line.edges));
+        edges.filter_map(|edge| edge.trims.fold).any(|fold| fold.turns_over())
+    }
+
     /// The edge that follows edge `i` on its closed line. Panics when there is no such edge.
     pub fn next_edge(&self, i: usize) -> usize {
         let (k, first) = self.loop_of(i);

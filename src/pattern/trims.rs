@@ -103,6 +103,15 @@ impl Fold {
     /// Strength of a crease pressed with an iron, N.
     pub const PRESSED: f64 = 0.02;
 
+    /// Angle beyond which a fold turns over, radians: one part then lies on the other.
+    pub const OVER: f64 = 120.0 * std::f64::consts::PI / 180.0;
+
+    /// Whether one part is turned over on to the other, as the fall of a collar is. Cloth that is closed to a ring, or nearly, does
+    /// not turn over once it stands: half-way its outer edge would have to be half as long again as the fold.
+    pub fn turns_over(&self) -> bool {
+        self.angle.abs() > Self::OVER
+    }
+
     /// A pressed fold of `angle` radians.
     pub fn pressed(angle: f64) -> Self {
         Self { angle, strength: Self::PRESSED }

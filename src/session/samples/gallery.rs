@@ -4,8 +4,8 @@ use std::sync::Arc;
 
 use crate::body::Mannequin;
 use crate::draft::{
-    self, Bodice, Bottom, Collar, Design, Dolman, Dungarees, Form, Hem, Hood, Kind, Neckline, NecklineShape,
-    Opening, Shape, Skirt, Sleeve, Top, Trousers, Upper, Waist,
+    self, Bodice, Bottom, Collar, Design, Dolman, Dungarees, Fall, Form, Hem, Hood, Kind, Neckline,
+    NecklineShape, Opening, Shape, Skirt, Sleeve, Top, Trousers, Upper, Waist,
 };
 use crate::io::sheet;
 use crate::pattern::Pattern;
@@ -58,7 +58,7 @@ pub fn document(garment: &Garment, body: &Mannequin) -> Document {
 /// A blouse with a turned-out collar and cuffs.
 pub fn blouse() -> Garment {
     let bodice = Bodice { bust_ease: 0.13, hem_ease: 0.10, ..boxy(Hem::Hip) };
-    let collar = Collar { height: 0.060, flare: 1.15 };
+    let collar = Collar { height: 0.060, flare: 1.15, fall: None };
     let sleeve = Sleeve { puff: 1.12, cuff: Some(0.05), gather: 1.35, ..sleeve(0.88) };
     let upper = Upper { collar: Some(collar), sleeve: Some(sleeve), ..upper(bodice, close()) };
     Garment { cut: drawn(top(Kind::Collared, upper)), fabric: "polyester", dye: dyed([222, 214, 232]) }
@@ -94,7 +94,7 @@ pub fn kimono() -> Garment {
 /// A long warm top with a funnel collar.
 pub fn tunic() -> Garment {
     let bodice = Bodice { bust_ease: 0.18, hem_ease: 0.16, ..boxy(Hem::Tunic) };
-    let collar = Collar { height: 0.075, flare: 1.05 };
+    let collar = Collar { height: 0.075, flare: 1.05, fall: None };
     let upper = Upper { collar: Some(collar), sleeve: Some(sleeve(0.88)), ..upper(bodice, close()) };
     Garment { cut: drawn(top(Kind::Collared, upper)), fabric: "wool", dye: dyed([120, 76, 66]) }
 }
@@ -203,10 +203,19 @@ pub fn dungarees() -> Garment {
 pub fn coat() -> Garment {
     let opening = Opening { stand: 0.03, buttons: 6, diameter: 0.025, colour: [78, 54, 38] };
     let bodice = Bodice { bust_ease: 0.20, hem_ease: 0.50, opening: Some(opening), ..boxy(Hem::Coat) };
-    let collar = Collar { height: 0.065, flare: 1.12 };
+    let collar = Collar { height: 0.065, flare: 1.12, fall: None };
     let sleeve = Sleeve { ease: 0.14, hem_ease: 0.14, ..sleeve(1.0) };
     let upper = Upper { collar: Some(collar), sleeve: Some(sleeve), ..upper(bodice, close()) };
     Garment { cut: drawn(top(Kind::Collared, upper)), fabric: "wool", dye: dyed([176, 142, 104]) }
+}
+
+/// A shirt whose collar turns over.
+pub fn shirt() -> Garment {
+    let bodice = Bodice { bust_ease: 0.14, hem_ease: 0.10, ..boxy(Hem::Hip) };
+    let collar = Collar { height: 0.030, flare: 1.2, fall: Some(Fall { depth: 0.044, point: 0.012 }) };
+    let sleeve = Sleeve { cuff: Some(0.06), gather: 1.2, ..sleeve(0.9) };
+    let upper = Upper { collar: Some(collar), sleeve: Some(sleeve), ..upper(bodice, close()) };
+    Garment { cut: Cut::Design(top(Kind::Collared, upper)), fabric: "cotton", dye: dyed([196, 214, 232]) }
 }
 
 fn plain(kind: Kind) -> Design {

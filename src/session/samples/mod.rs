@@ -67,11 +67,13 @@ pub enum Sample {
     Dungarees,
     /// A long coat that is buttoned in front.
     Coat,
+    /// A shirt with a collar that turns over.
+    Shirt,
 }
 
 impl Sample {
     /// All samples, in the order of the menu.
-    pub const ALL: [Self; 20] = [
+    pub const ALL: [Self; 21] = [
         Self::Tshirt,
         Self::Skirt,
         Self::Dress,
@@ -92,6 +94,7 @@ impl Sample {
         Self::ChildDress,
         Self::Dungarees,
         Self::Coat,
+        Self::Shirt,
     ];
 
     /// Those with marks, to be wrapped; the others have their pieces placed round the body, to be dressed.
@@ -120,6 +123,7 @@ impl Sample {
             Self::ChildDress => "Child's dress",
             Self::Dungarees => "Dungarees",
             Self::Coat => "Coat",
+            Self::Shirt => "Shirt",
         }
     }
 
@@ -146,6 +150,7 @@ impl Sample {
             Self::ChildDress => "child-dress",
             Self::Dungarees => "dungarees",
             Self::Coat => "coat",
+            Self::Shirt => "shirt",
         }
     }
 
@@ -196,6 +201,7 @@ impl Sample {
             Self::ChildDress => Cut::Placed(gallery::child_dress),
             Self::Dungarees => Cut::Placed(gallery::dungarees),
             Self::Coat => Cut::Placed(gallery::coat),
+            Self::Shirt => Cut::Placed(gallery::shirt),
         }
     }
 }

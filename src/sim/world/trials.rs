@@ -130,7 +130,10 @@ impl World {
     ) -> Result<Self, String> {
         let mut left: Vec<Start> =
             Start::ALL.into_iter().filter(|s| choice.only.is_none_or(|o| o == *s)).collect();
-        left.reverse();
+        // What turns over is sewn as it is placed: wrapped round the body a collar stands, and does not turn over any more.
+        if !source.pattern.pieces.values().any(|piece| piece.turns_over()) {
+            left.reverse();
+        }
         let (coarse, own) = (coarse_edge(&source), source.edge_length);
         let source = match coarse {
             Some(edge_length) => Arc::new(GarmentSource { edge_length, ..GarmentSource::clone(&source) }),

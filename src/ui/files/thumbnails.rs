@@ -41,6 +41,7 @@ const SAMPLES: [&[u8]; Sample::ALL.len()] = [
     include_bytes!("../../../assets/samples/child-dress.png"),
     include_bytes!("../../../assets/samples/dungarees.png"),
     include_bytes!("../../../assets/samples/coat.png"),
+    include_bytes!("../../../assets/samples/shirt.png"),
 ];
 
 /// The subject of a thumbnail.
