@@ -173,12 +173,11 @@ impl Piece {
         &self.loop_edges(k)[i - first]
     }
 
-    /// Whether cloth is turned over along an edge or internal line of the piece, see
-    /// [`Fold::turns_over`](crate::pattern::Fold::turns_over).
+    /// Whether what is sewn to an edge of the piece is turned over there, see
+    /// [`Fold::turns_over`](crate::pattern::Fold::turns_over). Internal lines do not count: a pleat lies flat from the beginning.
     pub fn turns_over(&self) -> bool {
-        let closed = self.outline.iter().chain(self.holes.iter().flatten());
-        let edges = closed.chain(self.lines.iter().flat_map(|line| &line.edges));
-        edges.filter_map(|edge| edge.trims.fold).any(|fold| fold.turns_over())
+        let mut edges = self.outline.iter().chain(self.holes.iter().flatten());
+        edges.any(|edge| edge.trims.fold.is_some_and(|fold| fold.turns_over()))
     }
 
     /// The edge that follows edge `i` on its closed line. Panics when there is no such edge.

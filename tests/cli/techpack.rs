@@ -67,7 +67,7 @@ fn in_german_its_heads_and_numbers_are_german_and_its_contents_stay_english() {
         ("Girth", "Umfang"),
         ("Ease", "Mehrweite"),
         ("Seams", "Nähte"),
-        ("To sew", "Zu nähen"),
+        ("To be sewn", "Zu nähen"),
         ("Page", "Seite"),
         ("hip", "Hüfte"),
         ("allowance", "Nahtzugabe"),

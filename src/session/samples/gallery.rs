@@ -215,7 +215,7 @@ pub fn shirt() -> Garment {
     let collar = Collar { height: 0.030, flare: 1.2, fall: Some(Fall { depth: 0.044, point: 0.012 }) };
     let sleeve = Sleeve { cuff: Some(0.06), gather: 1.2, ..sleeve(0.9) };
     let upper = Upper { collar: Some(collar), sleeve: Some(sleeve), ..upper(bodice, close()) };
-    Garment { cut: Cut::Design(top(Kind::Collared, upper)), fabric: "cotton", dye: dyed([196, 214, 232]) }
+    Garment { cut: drawn(top(Kind::Collared, upper)), fabric: "cotton", dye: dyed([196, 214, 232]) }
 }
 
 fn plain(kind: Kind) -> Design {
