@@ -11,8 +11,8 @@ fn read_file(window: &mut Window, entry: &str, path: &Path) -> bool {
 
 /// The same by any menu.
 pub fn read_by(window: &mut Window, menu: &str, entry: &str, path: &Path) -> bool {
-    super::choose(window, menu, entry);
-    if super::has_file_dialogs() {
+    super::hand::choose(window, menu, entry);
+    if super::hand::has_file_dialogs() {
         return false;
     }
     window.get_by_role(egui::accesskit::Role::TextInput).focus();
@@ -251,7 +251,7 @@ fn closing_with_changes_asks_first() {
 
 #[test]
 fn a_project_is_saved_by_a_typed_path_where_the_desktop_has_no_dialog() {
-    if super::has_file_dialogs() {
+    if super::hand::has_file_dialogs() {
         return;
     }
     let folder = tempfile::tempdir().expect("a folder");
@@ -326,7 +326,7 @@ fn a_copy_a_next_version_and_the_way_back() {
 
 /// Chooses `entry` of the file menu and types the path of the file to be written. False where the desktop has a dialog of its own.
 fn write_file(window: &mut Window, entry: &str, path: &Path) -> bool {
-    super::choose(window, "File", entry);
+    super::hand::choose(window, "File", entry);
     write_asked(window, path)
 }
 
@@ -337,7 +337,7 @@ pub fn write_asked(window: &mut Window, path: &Path) -> bool {
 
 /// As [`write_asked`], where the button that writes is called `button`.
 pub fn write_by(window: &mut Window, button: &str, path: &Path) -> bool {
-    if super::has_file_dialogs() {
+    if super::hand::has_file_dialogs() {
         return false;
     }
     window.get_by_role(egui::accesskit::Role::TextInput).focus();
@@ -410,7 +410,7 @@ fn the_tech_pack_is_made_behind_the_window() {
     let folder = tempfile::tempdir().expect("a folder");
     let path = folder.path().join("pack.pdf");
     let mut window = super::hand::dressed_window();
-    super::choose(&mut window, "File", "Tech pack…");
+    super::hand::choose(&mut window, "File", "Tech pack…");
     window.get_by_label("In which language is the tech pack to be?");
     window.get_by_label("Deutsch").click();
     window.run_steps(3);

@@ -1,4 +1,4 @@
-//! Dragging and pinning dressed cloth with the mouse.
+//! Dressed cloth and menus for the tests; dragging and pinning dressed cloth with the mouse.
 
 use super::*;
 
@@ -18,6 +18,25 @@ pub fn dressed(mut window: Window) -> Window {
     };
     wait(&mut window, "the cloth to rest", at_rest);
     window
+}
+
+/// Whether the desktop may have file dialogs of its own, which no test can answer; it is then told that the test is skipped.
+pub fn has_file_dialogs() -> bool {
+    let has = std::env::var_os("DBUS_SESSION_BUS_ADDRESS").is_some();
+    if has {
+        println!("skipped: this desktop may have a dialog of its own");
+    }
+    has
+}
+
+/// Clicks an entry of a menu of the bar.
+/// Chooses the entry of `menu` whose label contains `entry`; a menu higher than the window is scrolled to it.
+pub fn choose(window: &mut Window, menu: &str, entry: &str) {
+    act(window, menu);
+    window.get_by_label_contains(entry).scroll_to_me();
+    window.run_steps(3);
+    window.get_by_label_contains(entry).click();
+    window.run_steps(4);
 }
 
 pub fn positions(window: &Window) -> Vec<DVec3> {

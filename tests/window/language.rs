@@ -111,7 +111,7 @@ fn the_fit_report_is_in_the_language_of_the_window() {
     let path = folder.path().join("fit.html");
     let mut window = dressed_window();
     edit(&mut window, |app, _| app.follow_language("de".to_owned()));
-    super::choose(&mut window, "Datei", "Passformbericht…");
+    super::hand::choose(&mut window, "Datei", "Passformbericht…");
     if !write_by(&mut window, "Schreiben", &path) {
         return;
     }

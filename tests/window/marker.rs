@@ -50,7 +50,7 @@ fn wait_for(window: &mut Window, label: &str) {
 /// Saves by the button `label` to `path`. False where the desktop has a dialog of its own.
 fn save(window: &mut Window, label: &str, path: &Path) -> bool {
     click(window, label);
-    if super::has_file_dialogs() {
+    if super::hand::has_file_dialogs() {
         return false;
     }
     let role = egui::accesskit::Role::TextInput;

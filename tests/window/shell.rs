@@ -377,7 +377,7 @@ fn nothing_is_drawn_on_a_start_page_that_is_left_alone() {
 #[test]
 fn a_picture_of_any_size_is_written_with_nothing_behind_it() {
     let Some(device) = egui_wgpu_device() else { return };
-    if super::has_file_dialogs() {
+    if super::hand::has_file_dialogs() {
         return;
     }
     let folder = tempfile::tempdir().expect("a folder");
