@@ -32,7 +32,7 @@ fn damaged_files_are_taken_or_refused_in_words_and_in_time() {
         assert!(row["memory"].as_u64().is_none_or(|memory| memory < 1024), "{row}");
     }
     assert_eq!(ended.code, 0, "{ended:#?}");
-    assert_eq!(rows.len(), 20, "{:?}", rows.iter().map(|row| &row["reader"]).collect::<Vec<_>>());
+    assert_eq!(rows.len(), 21, "{:?}", rows.iter().map(|row| &row["reader"]).collect::<Vec<_>>());
     assert!(place.names("kept").is_empty());
 }
 
