@@ -24,8 +24,8 @@
 //! | `fit`      | measurements of a garment: strain, self-intersections, openings, the report, maps | cloth, body, pattern, geometry |
 //! | `sim`      | owner of the moving state: stages, protocol, checkpoints, thread, state hash | the above |
 //! | `session`  | the user's work: document, commands, history, recording, replay, project file, recovery; samples | sim and below, place, io, draft |
-//! | `draft`    | garments of our own, drawn from a seed and drafted to the mannequin's measurements: parts, designs, the corpus | body, pattern, geometry |
-//! | `io`       | obj, gltf, bvh; patterns as garmentcode json, dxf with grade rules, svg, pdf: bytes in, checked data out, and back | cloth, body, pattern, geometry |
+//! | `draft`    | garments of our own, drawn from a seed and drafted to the mannequin's measurements: parts, designs, body sizes, the corpus | body, pattern, geometry |
+//! | `io`       | obj, gltf, usd, bvh, pictures; patterns as garmentcode json, dxf with grade rules, svg, pdf: bytes in, checked data out, and back | cloth, body, pattern, geometry |
 //! | `marker`   | all pieces of garments laid out on a width of cloth: nesting, yield and consumption, the files to cut from | io, pattern, geometry |
 //! | `language` | the texts and numbers of window and pages in other languages | nothing of ours |
 //! | `pack`     | the tech pack: what a garment maker needs to know, measured, and its pages | session and below, marker, language |

@@ -85,7 +85,7 @@ fn told(corpus: &Corpus, cases: usize, folder: &Path) -> String {
 
 /// Writes the table of sizes to `folder`.
 pub fn write_sizes(folder: &Path) -> Result<(), Failure> {
-    output::write(&folder.join(SIZES_FILE), draft::table().as_bytes())
+    output::write(&folder.join(SIZES_FILE), draft::ADULTS.csv().as_bytes())
 }
 
 /// Cache of measured bodies, by size and pose.

@@ -278,7 +278,7 @@ pub fn stand_side(
     if !in_halves {
         return vec![garment.stand(half.whole(name), Part::Body, facing, at)];
     }
-    let left = half.half(&format!("{name} left"));
+    let left = half.half(&format!("{name} left"), "centre");
     let right = to_the_right(&left);
     [left, right].map(|piece| garment.stand(piece, Part::Body, facing, at)).into()
 }
@@ -286,11 +286,7 @@ pub fn stand_side(
 /// Places both halves of a front that opens, the right one over the left one, and sews its buttons on.
 fn opened(garment: &mut Garment, form: &Form, left: Path, opening: &Opening, height: f64) -> Vec<PieceId> {
     let neck = left.end().y;
-    let left = left.closed("front left", "front edge");
-    let mut left = left;
-    left.outline
-        .iter_mut()
-        .for_each(|edge| edge.label = edge.label.as_ref().map(|label| format!("{label} left")));
+    let left = left.half("front left", "front edge");
     // Suggested marks do not tell which half is outside: with a layer of its own the coat is sewn from where it is placed.
     let right = Piece { layer: OUTER, ..to_the_right(&left) };
     let z = form.depth[0] + CLEARANCE;

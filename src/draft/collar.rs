@@ -81,7 +81,7 @@ pub fn collar(garment: &mut Garment, form: &Form, cut: &Collar, trunk: &Trunk) {
         if side == 1 || !trunk.opens {
             return vec![garment.stand(path.whole(name), Part::Body, facing, at)];
         }
-        let left = path.half(&format!("{name} left"));
+        let left = path.half(&format!("{name} left"), "centre");
         let right = Piece { layer: OUTER, ..to_the_right(&left) };
         [(left, DVec3::X * APART), (right, DVec3::new(-APART, 0.0, OVERLAP))]
             .map(|(piece, aside)| garment.stand(piece, Part::Body, facing, at + aside))
@@ -169,7 +169,7 @@ fn strips(
     let name = names[side];
     let pieces = match side {
         0 => {
-            let left = half.half(&format!("{name} left"));
+            let left = half.half(&format!("{name} left"), "centre");
             let right = to_the_right(&left);
             vec![(left, APART), (right, -APART)]
         }

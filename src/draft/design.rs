@@ -2,7 +2,7 @@
 
 use serde::Serialize;
 
-use crate::draft::band::waistband;
+use crate::draft::band::{Band, waistband};
 use crate::draft::bodice::{Armhole, Bodice, Hem, bodice};
 use crate::draft::collar::{Collar, collar};
 use crate::draft::dolman::{Dolman, dolman};
@@ -234,7 +234,9 @@ impl Design {
                 garment.sew(&front, &tops[0]);
                 garment.sew(&back, &tops[1]);
             }
-            (None, Some(height)) => waistband(&mut garment, form, height, girth, level, tops),
+            (None, Some(height)) => {
+                waistband(&mut garment, form, &Band::plain(height, girth, level), &tops);
+            }
             (None, None) => {}
         }
         garment.pattern

@@ -2,16 +2,15 @@
 
 use glam::{DVec2, DVec3};
 
+use crate::draft::band::{Band, GAP, waistband};
 use crate::draft::form::Form;
-use crate::draft::garment::{Facing, Garment, Part, Run, UPWARDS};
+use crate::draft::garment::{Facing, Garment, Part};
 use crate::draft::path::Path;
 use crate::draft::skirt::CLEARANCE;
 use crate::draft::trousers::{Trousers, trousers};
 use crate::geometry::ids::PieceId;
 use crate::pattern::Pattern;
 
-/// Gap between pieces that are sewn to each other one above the other, as placed, metres.
-const GAP: f64 = 0.005;
 /// Length of cloth over the fullness of chest or back, relative to its height.
 const ROUND: f64 = 1.03;
 /// Length by which straps are shorter than the body there, metres: they are taut, and stay on the shoulders.
@@ -49,7 +48,9 @@ pub fn dungarees(form: &Form, cut: &Dungarees) -> Pattern {
     let mut garment = Garment::default();
     let girth = form.measurements.waist + cut.waist_ease;
     let tops = trousers(&mut garment, form, &cut.legs, girth, form.waist);
-    let bands = bands(&mut garment, form, cut, girth, &tops);
+    let band =
+        Band { clearance: CLEARANCE, panels: Some(cut.bib), ..Band::plain(cut.band, girth, form.waist) };
+    let bands = waistband(&mut garment, form, &band, &tops);
     let low = form.waist + GAP + cut.band + GAP;
     let bib_height = ROUND * (form.bust + cut.above_bust - low);
     // Tapes from the shoulder down to the bust line, in front and at the back.
@@ -70,28 +71,6 @@ pub fn dungarees(form: &Form, cut: &Dungarees) -> Pattern {
         }
     }
     garment.pattern
-}
-
-/// Drafts front and back of the waistband and sews them to the upper edges of the trousers.
-fn bands(garment: &mut Garment, form: &Form, cut: &Dungarees, girth: f64, tops: &[Run; 2]) -> [PieceId; 2] {
-    let lengths = tops.each_ref().map(|run| garment.length(run));
-    let share = girth / (lengths[0] + lengths[1]);
-    let bands = [0, 1].map(|side| {
-        let half = lengths[side] * share / 2.0;
-        let (name, facing) = [("waistband front", Facing::Front), ("waistband back", Facing::Back)][side];
-        let at = |x: f64| DVec2::new(x, cut.band);
-        let path =
-            Path::from(DVec2::ZERO).line("band seam", DVec2::new(half, 0.0)).line("band side", at(half));
-        let path = path.line("band top", at(cut.bib[side])).line("panel seam", at(0.0));
-        let z = form.hip_depth[side] + [CLEARANCE, -CLEARANCE][side];
-        garment.stand(path.whole(name), Part::Body, facing, DVec3::new(0.0, form.waist + GAP, z))
-    });
-    for (band, top) in bands.into_iter().zip(tops) {
-        let seam = garment.run(&[band], "band seam", DVec3::X);
-        garment.sew(&seam, top);
-    }
-    garment.sew_alike(&bands[..1], &bands[1..], &["band side left", "band side right"], UPWARDS);
-    bands
 }
 
 /// Drafts the bib, `height` metres high, and places its lower edge at `low`.

@@ -32,7 +32,7 @@ pub use dungarees::{Dungarees, dungarees};
 pub use form::Form;
 pub use hood::Hood;
 pub use neckline::{Neckline, Shape as NecklineShape};
-pub use sizes::{BodySize, CHILDREN, SIZE_TABLES, SIZES, SizeTable, table};
+pub use sizes::{ADULTS, BodySize, CHILDREN, SIZE_TABLES, SIZES, SizeTable};
 pub use skirt::{Shape, Skirt};
 pub use sleeve::Sleeve;
 pub use trousers::Trousers;

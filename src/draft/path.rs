@@ -83,9 +83,9 @@ impl Path {
         Piece { name: name.to_owned(), outline: both, ..Piece::default() }
     }
 
-    /// A piece of this left half alone, closed by an edge called "centre"; "left" is appended to labels.
-    pub fn half(self, name: &str) -> Piece {
-        let mut piece = self.closed(name, "centre");
+    /// A piece of this left half alone, closed by an edge called `closing`; "left" is appended to labels.
+    pub fn half(self, name: &str, closing: &str) -> Piece {
+        let mut piece = self.closed(name, closing);
         piece.outline.iter_mut().for_each(|edge| edge.label = suffixed(edge, "left"));
         piece
     }
@@ -149,7 +149,7 @@ mod tests {
             .curve("neck", DVec2::new(0.2, 0.3), DVec2::new(0.1, 0.3), DVec2::new(0.0, 0.3));
         let whole = half.clone().whole("front");
         assert_eq!(whole.outline.len(), 12);
-        let one = half.half("front left");
+        let one = half.half("front left", "centre");
         assert!((whole.signed_area() - 2.0 * one.signed_area()).abs() < 1e-9 && one.signed_area() > 0.0);
         let right = to_the_right(&one);
         assert!((right.signed_area() - one.signed_area()).abs() < 1e-9);

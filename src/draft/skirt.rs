@@ -315,7 +315,7 @@ fn godets(
             false => vec![garment.stand(half().whole(name), Part::Leg, facing, at)],
             true => {
                 let left = half().line("centre", tip).line("godet middle", DVec2::new(0.0, -frame.length));
-                let left = left.half(&format!("{name} left"));
+                let left = left.half(&format!("{name} left"), "centre");
                 let right = to_the_right(&left);
                 [left, right].map(|piece| garment.stand(piece, Part::Leg, facing, at)).into()
             }

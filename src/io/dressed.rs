@@ -2,7 +2,7 @@
 
 use glam::{DVec2, DVec3};
 
-use crate::cloth::{ClothState, Garment};
+use crate::cloth::{ClothState, Corner, Garment};
 use crate::geometry::ids::PieceId;
 use crate::io::materials::Textures;
 use crate::pattern::Pattern;
@@ -25,6 +25,13 @@ impl Dressed<'_> {
             self.garment.triangles[*t].iter().all(|&v| self.state.mapped.get(v as usize) == Some(&true))
         };
         (0..self.garment.triangles.len()).filter(is_laid).collect()
+    }
+
+    /// The flat corners of `piece`, and the number of the first.
+    pub(super) fn corners(&self, piece: PieceId) -> (&[Corner], usize) {
+        let all = &self.garment.corners;
+        let first = all.partition_point(|c| c.piece < piece);
+        (&all[first..all.partition_point(|c| c.piece <= piece)], first)
     }
 }
 
@@ -59,8 +66,7 @@ impl PieceArrays {
         textures: Option<&Textures>,
     ) -> Self {
         let Dressed { garment, state, pattern } = dressed;
-        let first = garment.corners.partition_point(|c| c.piece < piece);
-        let corners = &garment.corners[first..garment.corners.partition_point(|c| c.piece <= piece)];
+        let (corners, first) = dressed.corners(piece);
         let pose = pattern.pieces.get(&piece).map(|p| p.pose).unwrap_or_default();
         let weave = textures.and_then(|textures| textures.weave_from_piece.get(&piece));
         let uv = |at: DVec2| match textures {

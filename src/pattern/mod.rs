@@ -76,6 +76,16 @@ impl Pattern {
         id
     }
 
+    /// Whether a seam is folded so that what is sewn together there turns over ([`Fold::turns_over`]).
+    pub fn turns_over_at_a_seam(&self) -> bool {
+        let folds = |side: &Stretch| {
+            let Some(piece) = self.pieces.get(&side.piece) else { return false };
+            let parts = side.parts(piece).unwrap_or_default();
+            parts.iter().any(|&(i, ..)| piece.edge(i).trims.fold.is_some_and(|fold| fold.turns_over()))
+        };
+        self.seams.values().any(|seam| seam.sides.iter().any(folds))
+    }
+
     /// The piece called `name`; the first, when several have that name.
     pub fn piece_named(&self, name: &str) -> Option<PieceId> {
         self.pieces.iter().find(|(_, p)| p.name == name).map(|(&id, _)| id)

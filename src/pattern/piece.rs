@@ -173,13 +173,6 @@ impl Piece {
         &self.loop_edges(k)[i - first]
     }
 
-    /// Whether what is sewn to an edge of the piece is turned over there, see
-    /// [`Fold::turns_over`](crate::pattern::Fold::turns_over). Internal lines do not count: a pleat lies flat from the beginning.
-    pub fn turns_over(&self) -> bool {
-        let mut edges = self.outline.iter().chain(self.holes.iter().flatten());
-        edges.any(|edge| edge.trims.fold.is_some_and(|fold| fold.turns_over()))
-    }
-
     /// The edge that follows edge `i` on its closed line. Panics when there is no such edge.
     pub fn next_edge(&self, i: usize) -> usize {
         let (k, first) = self.loop_of(i);

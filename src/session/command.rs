@@ -136,7 +136,7 @@ pub enum Command {
     /// Sew the garment together from the placement of its pieces, and drape it.
     Sew,
     /// Put the garment on by the best start: by marks, its own or suggested ones, and draping; else sewn from the placement of
-    /// its pieces. The first without a fault is taken.
+    /// its pieces, which comes before suggested marks where something turns over at a seam. The first without a fault is taken.
     Dress {
         #[serde(default)]
         choice: StartChoice,

@@ -13,7 +13,8 @@ pub enum Start {
 }
 
 impl Start {
-    /// All starts, in the order in which they are tried.
+    /// All starts, in the order in which they are tried, but where something turns over at a seam and the garment has no marks of
+    /// its own: then the placement comes first.
     pub const ALL: [Self; 2] = [Self::Marks, Self::Placement];
 }
 

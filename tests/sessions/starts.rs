@@ -2,6 +2,8 @@
 
 use std::sync::Arc;
 
+use toile::geometry::ids::PieceId;
+use toile::pattern::Fold;
 use toile::session::recording::Recording;
 use toile::session::replay::Replay;
 use toile::session::{Command, Project, Session};
@@ -47,6 +49,29 @@ fn the_first_start_without_a_fault_is_taken() {
         let suggested = s.snapshot().source.as_ref().expect("dressed").marks.pairs().count();
         assert_eq!(suggested > 0, start == Start::Marks);
     }
+}
+
+#[test]
+fn what_turns_over_at_a_seam_is_first_sewn_from_its_placement() {
+    // The start that is tried first, where an edge of the front is folded by so many degrees.
+    let first = |edge: usize, degrees: f64, is_marked: bool| {
+        let mut project = placed_project(0.39, 0.33);
+        if is_marked {
+            project.document.take_marks(Arc::clone(&crate::common::project().document.marks));
+        }
+        let pattern = Arc::make_mut(&mut project.document.pattern);
+        let front = Arc::make_mut(pattern.pieces.get_mut(&PieceId(1)).expect("a piece"));
+        front.outline[edge].trims.fold = Some(Fold::pressed(degrees.to_radians()));
+        let mut s = session(project);
+        s.apply_alone(Command::Dress { choice: ANY }).expect("begun");
+        s.update();
+        s.snapshot().trying.expect("a start").0
+    };
+    let (seam, hem) = (1, 0);
+    assert_eq!([first(seam, 170.0, false), first(seam, -170.0, false)], [Start::Placement; 2]);
+    assert_eq!(first(seam, 90.0, false), Start::Marks, "it only stands off");
+    assert_eq!(first(hem, 170.0, false), Start::Marks, "nothing is sewn there");
+    assert_eq!(first(seam, 170.0, true), Start::Marks, "marks of the garment's own go before");
 }
 
 #[test]

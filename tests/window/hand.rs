@@ -29,7 +29,6 @@ pub fn has_file_dialogs() -> bool {
     has
 }
 
-/// Clicks an entry of a menu of the bar.
 /// Chooses the entry of `menu` whose label contains `entry`; a menu higher than the window is scrolled to it.
 pub fn choose(window: &mut Window, menu: &str, entry: &str) {
     act(window, menu);

@@ -1,9 +1,9 @@
 //! How children are proportioned: their usual measurements, and what of the figure differs from a grown one's.
 //!
 //! After Snyder et al. 1977, "Anthropometry of Infants, Children, and Youths to Age 18 for Product Safety Design"
-//! (UM-HSRI-77-17), rounded, with girths of trade size tables in the order of EN 13402-3. Between the two heights of the table,
-//! and beyond them, values are on a straight line. From 1.40 m on nothing differs: a figure is then the default one,
-//! stretched; just below, the differences set in smoothly.
+//! (UM-HSRI-77-17), rounded, with girths of trade size tables in the order of EN 13402-3. They are given for two heights;
+//! other heights are on the straight line through both. From 1.40 m on nothing differs: a figure is then the default one,
+//! stretched. Between 1.24 m and that height the differences fade smoothly, so that at 1.28 m 84 % of them are left.
 
 use super::measurements::Measurements;
 use super::proportions::level;
@@ -139,19 +139,16 @@ mod tests {
     }
 
     #[test]
-    fn the_children_of_the_table_are_usual() {
-        for child in [YOUNGER, OLDER] {
-            let default = Measurements::default();
+    fn the_younger_child_is_usual_and_the_older_one_nearly() {
+        let default = Measurements::default();
+        let close = |child: Measurements, within: f64| {
             let tall = child.height / default.height;
-            let factors = usual(child.height);
-            let share = share(child.height);
-            for (((name, own), (_, grown)), factor) in
-                child.named().into_iter().zip(default.named()).zip(factors)
-            {
-                let plain = grown * tall;
-                let expected = plain + (own - plain) * share;
-                assert!((plain * factor - expected).abs() < 1e-12, "{name}");
+            let named = child.named().into_iter().zip(default.named()).zip(usual(child.height));
+            for (((name, own), (_, grown)), factor) in named {
+                assert!((grown * tall * factor / own - 1.0).abs() <= within, "{name}: {factor}");
             }
-        }
+        };
+        close(YOUNGER, 1e-12);
+        close(OLDER, 0.03);
     }
 }

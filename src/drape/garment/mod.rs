@@ -173,7 +173,7 @@ pub struct DrapedGarment {
     pulling: Option<Box<Pulling>>,
     /// Faces too near the body at the last check.
     lacking: usize,
-    /// Checks in a row that found faces too near the body although the cloth was still: raising it had no effect.
+    /// Checks since the cloth last moved that found it too near the body: raising it had no effect.
     lifted_in_vain: i32,
     /// The garment on a graphics card, if one is used.
     card: Option<OnCard>,
@@ -589,8 +589,9 @@ impl DrapedGarment {
         let clearance = FACE_CLEARANCE * fixed.offset;
         let lacking = self.faces.lacking(lying, &near, clearance, &mut self.counters);
         let mut raised = self.small.lift().to_vec();
-        let in_vain = self.lacking > 0 && self.quiet > 0;
-        self.lifted_in_vain = if in_vain { self.lifted_in_vain + 1 } else { 0 };
+        // Only cloth that moved ends the count: not every check looks at edges, so one that finds nothing says nothing.
+        self.lifted_in_vain =
+            if self.quiet == 0 { 0 } else { self.lifted_in_vain + i32::from(self.lacking > 0) };
         let times = 2.0f64.powi(self.lifted_in_vain.min(5));
         self.lacking = 0;
         for (vs, &lack) in garment.triangles.iter().zip(&lacking) {

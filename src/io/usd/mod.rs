@@ -189,9 +189,8 @@ impl<'a> Builder<'a> {
             if piece.triangles.is_empty() {
                 continue;
             }
-            let own = garment.corners.iter().filter(|c| c.piece == *id);
-            let vertices: Vec<usize> = own.map(|c| c.vertex as usize).collect();
-            let of = |all: &[DVec3]| vertices.iter().map(|&v| all[v]).collect();
+            let (corners, _) = dressed.corners(*id);
+            let of = |all: &[DVec3]| corners.iter().map(|c| all[c.vertex as usize]).collect();
             let moved: Vec<MovedMesh> =
                 frames.iter().zip(&moved).map(|(frame, normals)| (of(&frame.cloth), of(normals))).collect();
             self.piece(name, &piece, &self.colours.of(*id), &moved);

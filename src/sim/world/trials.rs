@@ -130,8 +130,10 @@ impl World {
     ) -> Result<Self, String> {
         let mut left: Vec<Start> =
             Start::ALL.into_iter().filter(|s| choice.only.is_none_or(|o| o == *s)).collect();
-        // What turns over is sewn as it is placed: wrapped round the body a collar stands, and does not turn over any more.
-        if !source.pattern.pieces.values().any(|piece| piece.turns_over()) {
+        // What turns over is sewn as it is placed: wrapped round the body a collar stands, and does not turn over any more. Marks
+        // that the user made go before.
+        let is_marked = source.marks.pairs().next().is_some();
+        if is_marked || !source.pattern.turns_over_at_a_seam() {
             left.reverse();
         }
         let (coarse, own) = (coarse_edge(&source), source.edge_length);

@@ -277,19 +277,22 @@ fn unit_ui(ctx: &egui::Context, raw: &mut RawBody) -> Answer {
             ui.radio_value(&mut raw.up, UpAxis::Z, tr("z up"));
         });
         ui.add_space(8.0);
-        ui.horizontal(|ui| {
-            if ui.button(tr("Take it")).clicked() {
-                Answer::Body(Box::new(raw.clone()))
-            } else if ui.button(tr("Cancel")).clicked() {
-                Answer::Cancel
-            } else {
-                Answer::None
-            }
-        })
-        .inner
+        taken_ui(ui, tr("Take it"), || Answer::Body(Box::new(raw.clone())))
     });
     let closed = shown.should_close();
     shown.inner.or_cancel(closed)
+}
+
+/// Draws the buttons of a dialog whose fields are chosen: `take`, which gives `answer`, and Cancel.
+fn taken_ui(ui: &mut egui::Ui, take: &str, answer: impl FnOnce() -> Answer) -> Answer {
+    ui.horizontal(|ui| {
+        let is_taken = ui.button(take).clicked();
+        if ui.button(tr("Cancel")).clicked() {
+            return Answer::Cancel;
+        }
+        if is_taken { answer() } else { Answer::None }
+    })
+    .inner
 }
 
 fn tech_pack_ui(ctx: &egui::Context, languages: &[(String, String)], chosen: &mut String) -> Answer {
@@ -301,16 +304,7 @@ fn tech_pack_ui(ctx: &egui::Context, languages: &[(String, String)], chosen: &mu
             ui.radio_value(chosen, code.clone(), name);
         }
         ui.add_space(8.0);
-        ui.horizontal(|ui| {
-            if ui.button(tr("Choose a file…")).clicked() {
-                Answer::TechPack(chosen.clone())
-            } else if ui.button(tr("Cancel")).clicked() {
-                Answer::Cancel
-            } else {
-                Answer::None
-            }
-        })
-        .inner
+        taken_ui(ui, tr("Choose a file…"), || Answer::TechPack(chosen.clone()))
     });
     let closed = shown.should_close();
     shown.inner.or_cancel(closed)
@@ -335,16 +329,7 @@ fn scale_ui(ctx: &egui::Context, path: &Path, question: &ScaleQuestion, unit: &m
             ui.radio_value(unit, candidate, words);
         }
         ui.add_space(8.0);
-        ui.horizontal(|ui| {
-            if ui.button(tr("Take it")).clicked() {
-                Answer::Pattern(path.to_owned(), *unit)
-            } else if ui.button(tr("Cancel")).clicked() {
-                Answer::Cancel
-            } else {
-                Answer::None
-            }
-        })
-        .inner
+        taken_ui(ui, tr("Take it"), || Answer::Pattern(path.to_owned(), *unit))
     });
     let closed = shown.should_close();
     shown.inner.or_cancel(closed)
