@@ -15,6 +15,7 @@ use crate::fit::{Map, MapKind, MapReader};
 use crate::geometry::ids::PieceId;
 use crate::io::words::quoted;
 use crate::language::{Table, shown_in};
+use crate::pack::NO_ADAPTER;
 use crate::render::{Legend, png};
 use crate::session::{Outfit, Session};
 use crate::ui::fit_page::FitPage;
@@ -49,10 +50,10 @@ struct MapFigures {
 
 /// Writes every chosen map, each once, and the fit report.
 pub fn fit(arguments: &Fit) -> Result<(), Failure> {
+    let table = if arguments.page.is_some() { language::table(&arguments.language)? } else { None };
     let input = input::load(&arguments.project, &InputOptions::default())?;
     let session = run::opened(input.project, &arguments.project)?;
     let outfit = dressed(&session, &arguments.project)?;
-    let table = language::table(&arguments.language)?;
     let mut pictures = Pictures::new()?;
     if let Some(folder) = &arguments.out {
         maps(arguments, folder, &outfit, input.name.clone(), &mut pictures)?;
@@ -218,18 +219,18 @@ fn piece_name(garment: &Garment, piece: PieceId) -> String {
 pub struct Pictures {
     /// None where there is no graphics adapter.
     pub artist: Option<Artist>,
-    /// Why there is no graphics adapter.
+    /// Why pictures are left out, in the words of the pages; None where they are drawn.
     pub left_out: Option<String>,
 }
 
 impl Pictures {
-    /// Opens the graphics adapter. If there is none this is noted and is no failure.
+    /// Opens the graphics adapter. If there is none this is told with its reason, and is no failure.
     pub fn new() -> Result<Self, Failure> {
         match Artist::new() {
             Ok(artist) => Ok(Self { artist: Some(artist), left_out: None }),
             Err(Failure::Graphics(words)) => {
                 output::complain(&format!("pictures left out: {words}"));
-                Ok(Self { artist: None, left_out: Some(words) })
+                Ok(Self { artist: None, left_out: Some(NO_ADAPTER.to_owned()) })
             }
             Err(failure) => Err(failure),
         }

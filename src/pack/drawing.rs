@@ -34,7 +34,7 @@ const PLACES: [f64; 7] = [0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8];
 const TRIED: [usize; 7] = [3, 2, 4, 1, 5, 0, 6];
 
 /// What is worked along lines: its ink, and what the legend says of it.
-const WORKED: [(Ink, &str); 5] = [
+pub(super) const WORKED: [(Ink, &str); 5] = [
     (Ink::Own([222, 120, 20]), "Orange: elastic."),
     (Ink::Own([30, 140, 80]), "Green: hem."),
     (Ink::Own([140, 70, 180]), "Violet: topstitching."),

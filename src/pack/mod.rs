@@ -6,7 +6,7 @@
 //! | `cloths` | the cloths that the pieces are cut from, colourways, and how much of each is needed |
 //! | `seams` | which edges are sewn to which, their lengths and ease |
 //! | `alike` | pieces that are cut alike, or as mirror images |
-//! | `trims` | buttons, zips, elastic, folds, stitches, hems and graphics |
+//! | `trims` | buttons, zips, elastic, folds, stitches, hems, piping and graphics |
 //! | `sizes` | pieces and seams measured in every size |
 //! | `words` | texts, numbers and names as they are written in the language that is shown |
 //! | `flow` | headings, words and tables that flow from page to page |
@@ -33,4 +33,5 @@ pub use facts::{Pack, PieceRow, Source};
 pub use seams::{SeamRow, SideRow};
 pub use sizes::SizeRow;
 pub use trims::{Supply, TrimRow};
+pub use words::NO_ADAPTER;
 pub use write::{Picture, Pictures, write};

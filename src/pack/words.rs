@@ -9,9 +9,11 @@ use crate::session::Print;
 const LONGEST_NAME: usize = 120;
 /// The entry where there is no value.
 pub const NONE: &str = "–";
+/// Why pictures are left out where none can be drawn.
+pub const NO_ADAPTER: &str = "there is no graphics adapter to draw with";
 
-/// What the contents say in English, word by word; see `trims`, `seams`, `cloths` and `facts`. Of templates that fit a text the
-/// longer comes first.
+/// What the contents say in English, word by word; see `trims`, `seams`, `cloths` and `facts`, and why there is no layout,
+/// see `MarkerError`. Of templates that fit a text the longer comes first.
 const TOLD: &[&str] = &[
     "{n}° outwards",
     "{n}° inwards",
@@ -20,6 +22,9 @@ const TOLD: &[&str] = &[
     "{rows} at {mm} mm, stitches of {stitch} mm",
     "{cm} cm turned in",
     "for {mm} mm",
+    "piping {mm} mm thick",
+    "{mm} mm thick",
+    "\"{name}\" needs cloth of {needs} cm, and this is {width} cm wide",
     "an image, {cm} cm wide",
     "{name}, {cm} cm wide",
     "button of {mm} mm",
@@ -34,7 +39,12 @@ const TOLD: &[&str] = &[
     "The pattern has changed since it was dressed: pictures, girths and openings are of its earlier state.",
     "it is not dressed",
     "they were not wanted",
-    "there is no graphics adapter to draw with",
+    NO_ADAPTER,
+    "the pattern has no pieces to cut",
+    "no garment is asked for: give a size a quantity of 1 or more",
+    "{n} pieces would be cut; a marker holds {most}: make several",
+    "\"{name}\" encloses no cloth: its outline has no area",
+    "the layout was stopped",
 ];
 
 /// Where something is on a piece, in English, unless the edge or line has a name of its own.
@@ -94,6 +104,7 @@ pub fn worked(what: &'static str) -> &'static str {
         "elastic" => translated("Elastic"),
         "topstitching" => translated("Topstitching"),
         "hem" => translated("Hem"),
+        "piping" => translated("Piping"),
         "button" => translated("Button"),
         "buttonhole" => translated("Buttonhole"),
         "zip" => translated("Zip"),
@@ -170,8 +181,127 @@ pub fn print(print: Print) -> String {
 
 #[cfg(test)]
 mod tests {
+    use std::sync::Arc;
+
+    use glam::DVec2;
+
     use super::*;
+    use crate::geometry::ids::{GraphicId, ImageId};
     use crate::language::{Table, shown_in};
+    use crate::marker::MarkerError;
+    use crate::pack::drawing::WORKED;
+    use crate::pack::trims::{supplies, trims};
+    use crate::pattern::{
+        Button, EdgeRef, Elastic, Fold, Hem, Pattern, Piece, PiecePoint, Piping, Seam, Topstitch, Trims, Zip,
+    };
+    use crate::session::{Artwork, Graphic, ImageFile};
+
+    /// All that is worked along edges.
+    fn all_trims() -> Trims {
+        Trims {
+            fold: Some(Fold::pressed(1.0)),
+            elastic: Some(Elastic::USUAL),
+            topstitch: Some(Topstitch::default()),
+            hem: Some(Hem::USUAL),
+            piping: Some(Piping::USUAL),
+        }
+    }
+
+    /// Two pieces with everything that can be worked on them.
+    fn worked_everywhere() -> (Pattern, Artwork) {
+        let corners = [DVec2::ZERO, DVec2::X * 0.4, DVec2::new(0.4, 0.2), DVec2::Y * 0.2];
+        let mut piece = Piece::polygon("front", &corners);
+        piece.outline[0].trims = all_trims();
+        let rows = Topstitch { rows: 2, ..Topstitch::default() };
+        let inwards = Some(Fold::pressed(-1.0));
+        piece.outline[1].trims = Trims { fold: inwards, topstitch: Some(rows), ..Trims::default() };
+        let mut pattern = Pattern::default();
+        let front = pattern.add_piece(piece);
+        let back = pattern.add_piece(Piece::polygon("back", &corners));
+        let [button, hole] = [front, back].map(|piece| PiecePoint { piece, at: DVec2::splat(0.1) });
+        pattern.add_button(Button { button, hole, diameter: 0.011, colour: Button::PEARL, open: false });
+        let sides = [front, back].map(|piece| EdgeRef { piece, edge: 3 });
+        pattern.add_seam(Seam { zip: Some(Zip::CLOSED), ..Seam::of_edges(sides, false) });
+        let mut artwork = Artwork::default();
+        artwork.images.insert(ImageId(1), Arc::new(ImageFile::new("v1.5.png", Vec::new())));
+        for image in [1, 2] {
+            let (image, at) = (ImageId(image), DVec2::splat(0.1));
+            let graphic = Graphic { piece: front, image, at, width_m: 0.08, angle: 0.0, on_twin: false };
+            artwork.graphics.insert(GraphicId(image.0), graphic);
+        }
+        (pattern, artwork)
+    }
+
+    #[test]
+    fn all_that_is_worked_and_bought_is_told_in_german() {
+        let (pattern, artwork) = worked_everywhere();
+        let rows = trims(&pattern, &artwork);
+        let Trims { fold, elastic, topstitch, hem, piping } = all_trims();
+        let along = [
+            ("fold", fold.is_some()),
+            ("elastic", elastic.is_some()),
+            ("topstitching", topstitch.is_some()),
+            ("hem", hem.is_some()),
+            ("piping", piping.is_some()),
+        ];
+        let all =
+            along.into_iter().chain(["button", "buttonhole", "zip", "graphic"].map(|what| (what, true)));
+        for (what, is_worked) in all {
+            assert!(is_worked && rows.iter().any(|row| row.what == what), "{what}");
+        }
+        let supplies = supplies(&pattern, &rows);
+        for what in ["button", "zip", "elastic", "piping", "topstitching"] {
+            assert!(supplies.iter().any(|supply| supply.what.starts_with(what)), "{what}");
+        }
+        let table = Table::german().expect("it is built in");
+        shown_in(Some(table), || {
+            for row in &rows {
+                assert_ne!(worked(row.what), row.what);
+                for at in &row.places {
+                    assert_ne!(place(at), *at);
+                }
+                // Of a zip there is nothing but its length.
+                assert_eq!(row.measures.is_empty(), row.what == "zip", "{row:?}");
+                assert!(row.measures.is_empty() || measure(&row.measures) != row.measures, "{row:?}");
+            }
+            for supply in &supplies {
+                assert_ne!(told(&supply.what), supply.what);
+            }
+        });
+        for (_, meaning) in WORKED {
+            assert!(table.text(meaning).is_some(), "not in German: {meaning}");
+        }
+    }
+
+    #[test]
+    fn why_there_is_no_layout_is_told_in_german() {
+        let piece = || "v1.5, left".to_owned();
+        let too_wide = MarkerError::TooWide { piece: piece(), needs: 2.0, width: 1.1 };
+        for why in [
+            MarkerError::Empty,
+            MarkerError::Nothing,
+            too_wide.clone(),
+            MarkerError::TooMany(500),
+            MarkerError::NoArea(piece()),
+            MarkerError::Stopped,
+        ] {
+            match why {
+                MarkerError::Empty
+                | MarkerError::Nothing
+                | MarkerError::TooWide { .. }
+                | MarkerError::TooMany(_)
+                | MarkerError::NoArea(_)
+                | MarkerError::Stopped => {}
+                // Sizes are those of the pattern, and a number that cannot be is refused before anything is written.
+                MarkerError::Size(_) | MarkerError::Number(_) => panic!("on no page: {why}"),
+            }
+            let english = line(&why.to_string());
+            assert_eq!(told(&english), english);
+            shown_in(Table::german(), || assert_ne!(told(&english), english));
+        }
+        let words = shown_in(Table::german(), || told(&line(&too_wide.to_string())));
+        assert_eq!(words, "„v1.5, left“ braucht 200,0 cm breiten Stoff, und dieser ist 110,0 cm breit");
+    }
 
     #[test]
     fn what_the_contents_say_is_told_in_german() {
@@ -189,6 +319,8 @@ mod tests {
                 ("dots every 2.5 cm, #aa1.2", "Punkte, Rapport 2,5 cm, #aa1.2"),
                 ("v1.5.png, 8.0 cm wide", "v1.5.png, 8,0 cm breit"),
                 ("zip in seam 4", "Reißverschluss in Naht 4"),
+                ("piping 3.0 mm thick", "Paspel, 3,0 mm dick"),
+                ("3.0 mm thick", "3,0 mm dick"),
                 ("2 of 4 pieces have no seam allowance.", "2 von 4 Teilen haben keine Nahtzugabe."),
                 ("something new", "something new"),
             ] {
@@ -205,7 +337,7 @@ mod tests {
             ] {
                 assert_eq!(place(english), german);
             }
-            assert_eq!([worked("hem"), worked("fold")], ["Saum", "Bruchlinie"]);
+            assert_eq!(["hem", "fold", "piping"].map(worked), ["Saum", "Bruchlinie", "Paspel"]);
             assert_eq!([worked_times("button", 1), worked_times("button", 3)], ["1 Knopf", "3 Knöpfe"]);
             assert_eq!([cm(-0.1234), signed_cm(-0.0001)], ["−12,3", "0,0"]);
         });

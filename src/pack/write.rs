@@ -214,7 +214,7 @@ fn needed(flow: &mut Flow, pack: &Pack) {
         for why in cloth.taken.iter().filter_map(|taken| taken.why.as_deref()) {
             if !told.contains(&why) {
                 told.push(why);
-                let why = words::line(why);
+                let why = words::told(&words::line(why));
                 flow.item(&say!("Cloth {name}: {why}.", name = pack.cloth_name(i), why));
             }
         }

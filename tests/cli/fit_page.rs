@@ -7,7 +7,7 @@ use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
 use toile::session::project_file;
 
-use crate::program::{Place, adapter_required};
+use crate::program::{Place, adapter_required, ended, has_between_digits};
 
 /// Elements of HTML that are never closed.
 const VOID: [&str; 3] = ["meta", "img", "br"];
@@ -54,7 +54,10 @@ fn without_an_adapter_the_page_says_so_and_is_sound() {
     assert_eq!(place.names("").iter().filter(|name| name.starts_with("fit")).count(), 1);
     let page = place.read("fit.html");
     check_nesting(&page);
-    assert!(page.contains("pictures are left out") && !page.contains("<img"));
+    assert!(
+        page.contains("pictures are left out: there is no graphics adapter to draw with.")
+            && !page.contains("<img")
+    );
     assert!(!page.contains("http:") && !page.contains("https:") && !page.contains("<script"));
     assert!(page.contains("<h1>a&lt;b&gt;&amp;c</h1>"));
     assert!(page.contains("&lt;left&gt; &amp; &quot;right&quot;") && page.contains("&lt;/table&gt;'"));
@@ -154,14 +157,16 @@ fn in_german_no_word_and_no_number_is_english() {
     let left: Vec<&str> =
         german.iter().copied().filter(|text| is_english.contains(text) && !plain(text)).collect();
     assert!(left.is_empty(), "{left:?}");
-    let has = |text: &str, sign: char| {
-        let digits: Vec<char> = text.chars().collect();
-        digits.windows(3).any(|w| w[1] == sign && w[0].is_ascii_digit() && w[2].is_ascii_digit())
-    };
-    let points: Vec<&str> = german.iter().copied().filter(|text| has(text, '.') && !plain(text)).collect();
+    let points: Vec<&str> =
+        german.iter().copied().filter(|text| has_between_digits(text, '.') && !plain(text)).collect();
     assert!(points.is_empty(), "{points:?}");
-    assert!(german.iter().filter(|text| has(text, ',')).count() > 20);
-    for part in ["<html lang=\"de\">", "&amp;c: Passformbericht</title>", "Längen in Zentimetern"] {
+    assert!(german.iter().filter(|text| has_between_digits(text, ',')).count() > 20);
+    for part in [
+        "<html lang=\"de\">",
+        "&amp;c: Passformbericht</title>",
+        "Längen in Zentimetern",
+        "Die Bilder fehlen: es gibt keine Grafikkarte zum Zeichnen.",
+    ] {
         assert!(pages[1].contains(part), "{part}");
     }
     for attribute in ["The pattern", "The garment", "Ease: gap to the body"] {
@@ -175,5 +180,28 @@ fn a_language_that_is_not_there_is_refused() {
     let place = dressed();
     place.ends_with_words(2, "fit a<b>&c.toile --page fit.html --language xx", "there are en, de");
     assert!(!place.path("fit.html").exists());
+    place.ends_with_words(2, "fit missing.toile --page fit.html --language xx", "there are en, de");
     place.ends(2, "fit a<b>&c.toile --map ease --out maps --language de");
+}
+
+#[test]
+fn tables_of_languages_are_read_for_a_page_alone() {
+    let place = dressed();
+    // Where preferences are on each system.
+    for folder in ["toile/languages", "Library/Application Support/toile/languages"] {
+        std::fs::create_dir_all(place.path(folder)).expect("made");
+        place.write(&format!("{folder}/broken.json"), "{");
+    }
+    let fit = |arguments: &str| {
+        let mut command = place.command(&format!("fit a<b>&c.toile {arguments}"));
+        for name in ["HOME", "XDG_CONFIG_HOME", "APPDATA"] {
+            command.env(name, place.path(""));
+        }
+        let done = ended(command.output().expect("started"));
+        assert_eq!(done.code, 0, "{done:#?}");
+        done.err
+    };
+    assert!(fit("--page fit.html").contains("broken.json"));
+    let err = fit("--map ease --out maps");
+    assert!(!err.contains("broken.json"), "{err}");
 }

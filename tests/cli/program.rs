@@ -104,6 +104,12 @@ pub fn ended(output: Output) -> Ended {
     Ended { code: output.status.code().unwrap_or(-1), out: text(&output.stdout), err: text(&output.stderr) }
 }
 
+/// Whether `sign` stands between two digits of `text`, as decimal signs do.
+pub fn has_between_digits(text: &str, sign: char) -> bool {
+    let characters: Vec<char> = text.chars().collect();
+    characters.windows(3).any(|w| w[1] == sign && w[0].is_ascii_digit() && w[2].is_ascii_digit())
+}
+
 /// Whether tests that draw may step aside for want of an adapter.
 pub fn adapter_required() -> bool {
     std::env::var_os("TOILE_REQUIRE_ADAPTER").is_some()

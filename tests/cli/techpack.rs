@@ -7,7 +7,7 @@ use toile::io::svg;
 use toile::pattern::{Pattern, Piece};
 use toile::session::Project;
 
-use crate::program::{Place, adapter_required};
+use crate::program::{Place, adapter_required, has_between_digits};
 
 /// The words of each page; a word that is broken into lines stands in several.
 fn pages(place: &Place, name: &str) -> Vec<String> {
@@ -71,16 +71,20 @@ fn in_german_its_heads_and_numbers_are_german_and_its_contents_stay_english() {
         ("Page", "Seite"),
         ("hip", "Hüfte"),
         ("allowance", "Nahtzugabe"),
+        ("adapter", "Grafikkarte"),
     ] {
         assert!(english.contains(ours) && !german.contains(ours), "{ours}: {german}");
         assert!(german.contains(theirs) && !english.contains(theirs), "{theirs}: {german}");
     }
-    let has = |text: &str, sign: char| {
-        let letters: Vec<char> = text.chars().collect();
-        letters.windows(3).any(|w| w[1] == sign && w[0].is_ascii_digit() && w[2].is_ascii_digit())
-    };
     let version = env!("CARGO_PKG_VERSION");
-    assert!(has(&german, ',') && !has(&german.replace(version, ""), '.'), "{german}");
+    assert!(
+        has_between_digits(&german, ',') && !has_between_digits(&german.replace(version, ""), '.'),
+        "{german}"
+    );
+    place.ends(0, "techpack dressed.toile -o narrow.pdf --seconds 0 --width 0.1 --language de");
+    let narrow = pages(&place, "narrow.pdf").concat();
+    assert!(narrow.contains("braucht") && !narrow.contains("needs"), "{narrow}");
+    assert!(!has_between_digits(&narrow.replace(version, ""), '.'), "{narrow}");
     place.ends_with_words(2, "techpack dressed.toile -o xx.pdf --language xx", "there are en, de");
 }
 

@@ -428,5 +428,6 @@ fn the_tech_pack_is_made_behind_the_window() {
     let pdf = lopdf::Document::load(&path).expect("a PDF");
     let words = pdf.extract_text(&[1]).expect("words");
     assert!(words.contains("Produktionsblatt") && !words.contains("Tech pack"), "{words}");
+    assert!(words.contains("unbenannt") && !words.contains("untitled"), "{words}");
     assert!(window.query_by_label_contains("Written: ").is_some());
 }

@@ -2,6 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
+use crate::pack::NO_ADAPTER;
 use crate::ui::app::App;
 use crate::ui::app::turn::progress_ui;
 use crate::ui::files;
@@ -38,9 +39,7 @@ impl App {
                     return self.messages.error(say!("There is no picture: {why}", why));
                 }
             }
-            None => {
-                report.page.leave_pictures_out(tr("there is no graphics adapter to draw with").to_owned())
-            }
+            None => report.page.leave_pictures_out(NO_ADAPTER.to_owned()),
         }
         let (done, count) = report.page.progress();
         if done == count || self.scene_pane.graphics.is_none() {

@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 use std::sync::mpsc::{Receiver, TryRecvError, channel};
 
 use crate::language::{Table, shown, shown_in};
-use crate::pack::{Pack, Pictures, Source, Wish, write};
+use crate::pack::{NO_ADAPTER, Pack, Pictures, Source, Wish, write};
 use crate::session::{Document, Outfit};
 use crate::ui::app::App;
 use crate::ui::files;
@@ -40,11 +40,12 @@ impl App {
 
     /// Begins the tech pack of the garment; it is written to `path`.
     pub(in crate::ui) fn begin_tech_pack(&mut self, ctx: &egui::Context, path: &Path) -> Result<(), String> {
-        let name = self.path.as_deref().map_or_else(|| tr("untitled").to_owned(), files::stem);
+        let table = self.pack_table();
+        let untitled = || shown_in(table, || tr("untitled").to_owned());
+        let name = self.path.as_deref().map_or_else(untitled, files::stem);
         let document = self.session.document().clone();
         let outfit = Outfit::of(self.session.snapshot(), &document.fabrics);
         let pictures = self.pictures_of_pack(outfit.is_some())?;
-        let table = self.pack_table();
         let (send, coming) = channel();
         let done = ctx.clone();
         let work = move || {
@@ -64,7 +65,7 @@ impl App {
             return Ok(Pictures::LeftOut("it is not dressed".to_owned()));
         }
         let Some(graphics) = &mut self.scene_pane.graphics else {
-            return Ok(Pictures::LeftOut("there is no graphics adapter to draw with".to_owned()));
+            return Ok(Pictures::LeftOut(NO_ADAPTER.to_owned()));
         };
         let drawn = front_and_back(&self.session, &mut self.scenery, |scene, camera, look, size| {
             graphics.photograph(scene, camera, look, size)

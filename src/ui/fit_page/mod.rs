@@ -51,7 +51,7 @@ impl FitPage {
         Ok(())
     }
 
-    /// Leaves all pictures out; the page states `why`.
+    /// Leaves all pictures out; the page states `why`, which is English here, in its own language.
     pub fn leave_pictures_out(&mut self, why: String) {
         self.pictures.clear();
         self.left_out = Some(why);
