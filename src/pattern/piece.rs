@@ -265,6 +265,11 @@ impl InternalLine {
         self.points().nth(i)
     }
 
+    /// Where edge `i` ends: where the next one starts, or at the end of the line.
+    pub fn edge_end(&self, i: usize) -> DVec2 {
+        self.edges.get(i + 1).map_or(self.end, |next| next.start)
+    }
+
     /// The place of the line that is nearest to `p`: its edge, the fraction of the edge's arc length, and the distance, metres.
     pub fn nearest(&self, p: DVec2) -> Option<(usize, f64, f64)> {
         let ends = self.points().zip(self.points().skip(1));
@@ -299,8 +304,7 @@ impl InternalLine {
     pub fn flattened(&self, tolerance: f64) -> Vec<DVec2> {
         let mut points = Vec::new();
         for (i, edge) in self.edges.iter().enumerate() {
-            let end = self.edges.get(i + 1).map_or(self.end, |next| next.start);
-            curve::flatten(edge.start, edge.shape, end, tolerance, &mut points);
+            curve::flatten(edge.start, edge.shape, self.edge_end(i), tolerance, &mut points);
         }
         points.push(self.end);
         points
