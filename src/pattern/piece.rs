@@ -232,6 +232,17 @@ impl Piece {
         }
     }
 
+    /// Whether a closed or an internal line is smooth at a point. None at the ends of an internal line, where it is neither smooth
+    /// nor has a corner, and where there is no such point.
+    pub fn is_smooth_at(&self, at: &RulePoint) -> Option<bool> {
+        match at.line {
+            None => (at.point < self.edge_count()).then(|| self.edge(at.point).smooth),
+            Some(line) => {
+                self.lines.get(line)?.edges.get(at.point).filter(|_| at.point > 0).map(|edge| edge.smooth)
+            }
+        }
+    }
+
     /// The outline as a closed polyline whose chords stay within `tolerance` metres of it; the first point is not repeated.
     pub fn flattened(&self, tolerance: f64) -> Vec<DVec2> {
         flattened_loop(&self.outline, tolerance)
