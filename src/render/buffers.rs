@@ -6,10 +6,10 @@ use bytemuck::{Pod, Zeroable};
 use glam::{Vec2, Vec3, Vec4};
 
 use super::decal::{Decal, MOST_DECALS, pictures};
-use super::frame::linear;
 use super::picture_array::PictureArray;
 use super::pipelines::{MESH_STRIDE, Pipelines};
 use super::scene::Mesh;
+use super::srgb::linear;
 use super::strokes::Stroke;
 use super::{Gpu, RenderError};
 

@@ -5,6 +5,7 @@ use glam::UVec2;
 use super::buffers::{DeviceMesh, bind, upload};
 use super::frame::Frame;
 use super::gpu::DEPTH;
+use super::part::BLUR_REACH;
 use super::pipelines::{Pictured, Pipelines};
 use super::strokes::{Stroke, strokes};
 use super::target::{HalfSize, texture};
@@ -29,9 +30,6 @@ struct Bound {
     wires: Option<(wgpu::Buffer, u32)>,
     ground: bool,
 }
-
-/// Texels of ambient occlusion that are computed round those that a tile shows: the blur and the interpolation read them.
-const BLUR_REACH: u32 = 6;
 
 impl Renderer {
     /// Creates the pipelines and the shadow map.
