@@ -5,33 +5,32 @@ use crate::cli::failure::Failure;
 use crate::cli::{files, input, output, run};
 use crate::io::pattern_formats::{self, PatternFormat, endings};
 use crate::io::rul;
-use crate::io::usd::UsdFormat;
+use crate::io::words::any_of;
 use crate::ui::scenery::fabric_textures::USUAL_SIDE;
-use crate::ui::scenery::worn::Worn;
-
-/// Extensions of formats for dressed cloth.
-const OF_CLOTH: [&str; 4] = ["obj", "glb", "usda", "usdz"];
+use crate::ui::scenery::worn::{self, Worn};
 
 /// Writes the pattern or the cloth in the format of the file's extension.
 pub fn export(arguments: &Export) -> Result<(), Failure> {
-    let ending =
-        arguments.output.extension().and_then(|e| e.to_str()).unwrap_or_default().to_ascii_lowercase();
+    let ending = worn::ending(&arguments.output);
     if files::table_name(&arguments.project).is_some() {
         return table(arguments, &ending);
     }
     let of_pattern = PatternFormat::of_ending(&ending);
-    if of_pattern.is_none() && !OF_CLOTH.contains(&ending.as_str()) {
+    if of_pattern.is_none() && !worn::ENDINGS.contains(&ending.as_str()) {
         let words = format!(
-            "{}: the ending must be {} for the pattern, .obj, .glb, .usda or .usdz for the dressed cloth",
+            "{}: the ending must be {} for the pattern, {} for the dressed cloth",
             arguments.output.display(),
-            endings(PatternFormat::ALL)
+            endings(PatternFormat::ALL),
+            any_of(worn::ENDINGS)
         );
         return Err(Failure::Usage(words));
     }
     if of_pattern.is_some() && (arguments.textures.textures.is_some() || !arguments.cloth.is_empty()) {
-        let words =
-            "--textures, fabrics, colours and images are of dressed cloth, as .obj, .glb, .usda or .usdz";
-        return Err(Failure::Usage(words.to_owned()));
+        let words = format!(
+            "--textures, fabrics, colours and images are of dressed cloth, as {}",
+            any_of(worn::ENDINGS)
+        );
+        return Err(Failure::Usage(words));
     }
     let (scale, grade) = (arguments.scale, arguments.grade.clone());
     let options = InputOptions { scale, grade, as_placed: true, ..InputOptions::default() };
@@ -58,13 +57,10 @@ pub fn export(arguments: &Export) -> Result<(), Failure> {
         return Err(Failure::input(&arguments.project, words));
     };
     let worn = Worn { garment, cloth, pattern: &source.pattern, document: session.document() };
-    let (side, layout) = (arguments.textures.textures, arguments.textures.atlas);
-    let (body, path) = (snapshot.body.as_ref().map(|b| &b.mesh), &arguments.output);
-    let files = match (ending.as_str(), UsdFormat::of_ending(&ending)) {
-        ("obj", _) => worn.obj(side.unwrap_or(0), layout, path),
-        (_, Some(format)) => worn.usd(side.unwrap_or(USUAL_SIDE), layout, body, path, format),
-        _ => worn.glb(side.unwrap_or(USUAL_SIDE), layout, body).map(|bytes| vec![(path.clone(), bytes)]),
-    };
+    // The texture coordinates of an OBJ without textures are metres of the pattern.
+    let side = arguments.textures.textures.unwrap_or(if ending == "obj" { 0 } else { USUAL_SIDE });
+    let body = snapshot.body.as_ref().map(|b| &b.mesh);
+    let files = worn.files(side, arguments.textures.atlas, body, &arguments.output);
     match &files.map_err(Failure::Limit)?[..] {
         [(path, bytes)] => output::write(path, bytes),
         files => output::write_together(files),

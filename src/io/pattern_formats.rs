@@ -3,6 +3,7 @@
 use crate::io::pattern_file::{PatternFileError, ReadPattern};
 use crate::io::pdf::{Paper, PdfError};
 use crate::io::scale::DrawingUnit;
+use crate::io::words::any_of;
 use crate::io::{Limits, Written, dxf, garmentcode, pdf, rul, svg};
 use crate::pattern::Pattern;
 
@@ -49,9 +50,7 @@ impl PatternFormat {
 
 /// The extensions of `formats` in words: ".svg, .dxf or .json".
 pub fn endings(formats: impl IntoIterator<Item = PatternFormat>) -> String {
-    let mut all: Vec<String> = formats.into_iter().map(|format| format!(".{}", format.ending())).collect();
-    let last = all.pop().unwrap_or_default();
-    if all.is_empty() { last } else { format!("{} or {last}", all.join(", ")) }
+    any_of(formats.into_iter().map(PatternFormat::ending))
 }
 
 /// The format that `bytes` seem to be in, by their beginning; None for anything else, such as a mesh.

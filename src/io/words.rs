@@ -25,6 +25,13 @@ fn is_turning(c: char) -> bool {
     matches!(c, '\u{202a}'..='\u{202e}' | '\u{2066}'..='\u{2069}')
 }
 
+/// Endings of file names in words: ".svg, .dxf or .json".
+pub fn any_of<'e>(endings: impl IntoIterator<Item = &'e str>) -> String {
+    let mut all: Vec<String> = endings.into_iter().map(|ending| format!(".{ending}")).collect();
+    let last = all.pop().unwrap_or_default();
+    if all.is_empty() { last } else { format!("{} or {last}", all.join(", ")) }
+}
+
 /// A CSV field in quotes (RFC 4180); quotes in it are doubled.
 pub fn quoted(words: &str) -> String {
     format!("\"{}\"", words.replace('"', "\"\""))

@@ -69,7 +69,7 @@ fn sampled(piece: &Piece, k: usize, edge_length: f64, outline: &[[DVec2; 2]]) ->
     let line = &piece.lines[k];
     let mut nodes = Vec::new();
     for (i, edge) in line.edges.iter().enumerate() {
-        let end = line.edges.get(i + 1).map_or(line.end, |next| next.start);
+        let end = line.edge_end(i);
         let count =
             ((curve::exact_length(edge.start, edge.shape, end) / edge_length).round() as usize).max(1);
         let fractions: Vec<f64> = (0..count).map(|n| n as f64 / count as f64).collect();

@@ -225,6 +225,17 @@ impl Piece {
         }
     }
 
+    /// Whether a closed or an internal line is smooth at a point. None at the ends of an internal line, where it is neither smooth
+    /// nor has a corner, and where there is no such point.
+    pub fn is_smooth_at(&self, at: &RulePoint) -> Option<bool> {
+        match at.line {
+            None => (at.point < self.edge_count()).then(|| self.edge(at.point).smooth),
+            Some(line) => {
+                self.lines.get(line)?.edges.get(at.point).filter(|_| at.point > 0).map(|edge| edge.smooth)
+            }
+        }
+    }
+
     /// The outline as a closed polyline whose chords stay within `tolerance` metres of it; the first point is not repeated.
     pub fn flattened(&self, tolerance: f64) -> Vec<DVec2> {
         flattened_loop(&self.outline, tolerance)
@@ -256,6 +267,11 @@ impl InternalLine {
     /// Point `i`: where edge `i` starts; on a line of n edges point n is its end. None where there is no such point.
     pub fn point(&self, i: usize) -> Option<DVec2> {
         self.points().nth(i)
+    }
+
+    /// Where edge `i` ends: where the next one starts, or at the end of the line.
+    pub fn edge_end(&self, i: usize) -> DVec2 {
+        self.edges.get(i + 1).map_or(self.end, |next| next.start)
     }
 
     /// The place of the line that is nearest to `p`: its edge, the fraction of the edge's arc length, and the distance, metres.
@@ -292,8 +308,7 @@ impl InternalLine {
     pub fn flattened(&self, tolerance: f64) -> Vec<DVec2> {
         let mut points = Vec::new();
         for (i, edge) in self.edges.iter().enumerate() {
-            let end = self.edges.get(i + 1).map_or(self.end, |next| next.start);
-            curve::flatten(edge.start, edge.shape, end, tolerance, &mut points);
+            curve::flatten(edge.start, edge.shape, self.edge_end(i), tolerance, &mut points);
         }
         points.push(self.end);
         points

@@ -6,10 +6,10 @@ use bytemuck::{Pod, Zeroable};
 use glam::{Vec2, Vec3, Vec4};
 
 use super::decal::{Decal, MOST_DECALS, pictures};
-use super::frame::linear;
 use super::picture_array::PictureArray;
 use super::pipelines::{MESH_STRIDE, Pipelines};
 use super::scene::Mesh;
+use super::srgb::linear;
 use super::strokes::Stroke;
 use super::{Gpu, RenderError};
 
@@ -20,11 +20,34 @@ pub(super) struct DeviceMesh {
     pub(super) vertices: wgpu::Buffer,
     pub(super) indices: wgpu::Buffer,
     pub(super) index_count: u32,
-    /// Index buffer of all edges, for the wireframe, and the number of its indices; made when the edges are first drawn.
+    /// Index buffer of all edges, for [`Wire::Thin`], and the number of its indices; made when the edges are first drawn so.
     pub(super) edges: Option<(wgpu::Buffer, u32)>,
+    /// The edges as they were drawn last as strokes: the buffer of these and their number.
+    strokes: Option<(Wire, wgpu::Buffer, u32)>,
     pub(super) material: wgpu::BindGroup,
     /// The pictures of its decals.
     pictures: PictureArray,
+}
+
+/// How the edges of triangles are drawn.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Wire {
+    /// As lines of one pixel.
+    Thin,
+    /// As strokes: `half_width` pixels, nearer to the eye by `lift` metres.
+    Strokes { half_width: f32, lift: f32 },
+}
+
+impl Wire {
+    /// Lines as wide as `drawn_per_pixel` pixels (see [`Look::drawn_per_pixel`](super::Look)); strokes are nearer to the eye by
+    /// `lift` metres.
+    pub(super) fn new(drawn_per_pixel: f32, lift: f32) -> Self {
+        if drawn_per_pixel > 1.0 {
+            Self::Strokes { half_width: drawn_per_pixel / 2.0, lift }
+        } else {
+            Self::Thin
+        }
+    }
 }
 
 /// Colour of edges of triangles and opacity, sRGB. As in shaders/wire.wgsl.
@@ -95,13 +118,13 @@ impl Material {
     }
 }
 
-/// Uploads the meshes of one picture, reusing those of the last one. `wire` also makes the edge buffers of cloth.
+/// Uploads the meshes of one picture, reusing those of the last one; with `wire` also the edges of cloth, unless they are there.
 pub(super) fn upload(
     gpu: &Gpu,
     pipelines: &Pipelines,
     mut last: Vec<DeviceMesh>,
     meshes: &[Arc<Mesh>],
-    wire: bool,
+    wire: Option<Wire>,
 ) -> Result<Vec<DeviceMesh>, RenderError> {
     let mut known: Vec<PictureArray> = last.iter().map(|mesh| mesh.pictures.clone()).collect();
     let mut all: Vec<DeviceMesh> = meshes
@@ -112,8 +135,15 @@ pub(super) fn upload(
             None => DeviceMesh::new(gpu, pipelines, mesh, &mut known),
         })
         .collect::<Result<_, _>>()?;
-    for mesh in all.iter_mut().filter(|m| wire && m.is_cloth() && m.edges.is_none()) {
-        mesh.edges = Some(mesh.edge_buffer(gpu));
+    for mesh in all.iter_mut().filter(|mesh| mesh.is_cloth()) {
+        match wire {
+            Some(Wire::Thin) if mesh.edges.is_none() => mesh.edges = Some(mesh.edge_buffer(gpu)),
+            Some(strokes @ Wire::Strokes { half_width, lift }) if mesh.strokes_as(strokes).is_none() => {
+                let (buffer, count) = mesh.stroke_buffer(gpu, half_width, lift);
+                mesh.strokes = Some((strokes, buffer, count));
+            }
+            _ => {}
+        }
     }
     Ok(all)
 }
@@ -154,6 +184,7 @@ impl DeviceMesh {
             indices: gpu.buffer("indices", bytemuck::cast_slice(&indices), wgpu::BufferUsages::INDEX),
             index_count: indices.len() as u32 * 3,
             edges: None,
+            strokes: None,
             material: bind(
                 gpu,
                 &pipelines.material_layout,
@@ -177,14 +208,21 @@ impl DeviceMesh {
         self.is_cloth() && self.mesh.textile.mean_cover < 1.0
     }
 
-    /// Lines along all edges, one stroke each: `half_width` pixels, nearer to the eye by `lift` metres.
-    pub(super) fn edge_strokes(&self, half_width: f32, lift: f32) -> Vec<Stroke> {
+    /// Its edges as they are drawn as `wire`, where that are strokes and they are uploaded: the buffer of these and their number.
+    pub(super) fn strokes_as(&self, wire: Wire) -> Option<(&wgpu::Buffer, u32)> {
+        self.strokes.as_ref().filter(|(made, ..)| *made == wire).map(|(_, buffer, count)| (buffer, *count))
+    }
+
+    /// Uploads lines along all edges, one stroke each; returns their number, too.
+    fn stroke_buffer(&self, gpu: &Gpu, half_width: f32, lift: f32) -> (wgpu::Buffer, u32) {
         let positions = &self.mesh.positions;
         let edges = edges(&self.mesh.triangles, positions.len() as u32);
         let stroke = |[a, b]: [u32; 2]| {
             Stroke::along(positions[a as usize], positions[b as usize], WIRE, half_width, lift)
         };
-        edges.into_iter().map(stroke).collect()
+        let strokes: Vec<Stroke> = edges.into_iter().map(stroke).collect();
+        let buffer = gpu.buffer("strokes", bytemuck::cast_slice(&strokes), wgpu::BufferUsages::VERTEX);
+        (buffer, strokes.len() as u32)
     }
 
     fn edge_buffer(&self, gpu: &Gpu) -> (wgpu::Buffer, u32) {

@@ -8,6 +8,7 @@ use glam::{Vec2, Vec3, Vec4};
 
 use super::harmonics::Harmonics;
 use super::light::Light;
+use super::wgsl::smoothstep;
 
 /// Radiance around a scene, relative to the strength of light from everywhere (`Look::ambient`). Linear RGB.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -112,11 +113,6 @@ impl Softbox {
     }
 }
 
-fn smoothstep(from: f32, to: f32, at: f32) -> f32 {
-    let t = ((at - from) / (to - from)).clamp(0.0, 1.0);
-    t * t * (3.0 - 2.0 * t)
-}
-
 /// What matt surfaces reflect of each environment, in the order of [`Light::ALL`].
 static REFLECTED: LazyLock<[[Vec3; 9]; 3]> = LazyLock::new(|| {
     Light::ALL.map(|light| {
@@ -151,6 +147,7 @@ impl Surroundings {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::render::srgb::luminance;
 
     /// Light that a matt white surface reflects with the normal `n`, in the frame of the eye.
     fn reflected(light: Light, n: Vec3) -> Vec3 {
@@ -220,7 +217,7 @@ mod tests {
     #[test]
     fn images_are_as_bright_as_the_studio() {
         let mean = Harmonics::of(|d| Environment::of(Light::Studio).radiance(d)).reflected()[0];
-        let luminance = mean.dot(Vec3::new(0.2126, 0.7152, 0.0722));
+        let luminance = luminance(mean);
         assert!((luminance / MEAN_LIGHT - 1.0).abs() < 0.02, "{luminance}");
     }
 }

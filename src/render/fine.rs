@@ -6,9 +6,10 @@ use image::RgbaImage;
 use rayon::prelude::*;
 
 use super::alpha::straightened;
-use super::frame::{decoded, occlusion_margin};
+use super::frame::occlusion_margin;
 use super::part::Part;
-use super::pyramid::{LINEAR, encoded};
+use super::pyramid::encoded;
+use super::srgb::{LINEAR, decoded};
 use super::target::check_size;
 use super::{Camera, Gpu, Look, OffscreenTarget, Quality, RenderError, Renderer, Scene};
 

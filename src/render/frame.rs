@@ -6,8 +6,8 @@ use glam::{Mat4, Quat, UVec2, Vec2, Vec3, Vec4};
 
 use super::environment::Surroundings;
 use super::light::Light;
-use super::part::Part;
-use super::scene::Rgb;
+use super::part::{BLUR_MARGIN, Part};
+use super::srgb::{gamma, linear};
 use super::{Camera, Look, Projection, Scene};
 
 /// The uniform buffer of a picture.
@@ -90,8 +90,6 @@ fn rectangle(at: UVec2, size: UVec2) -> Vec4 {
 
 /// Largest distance at which ambient occlusion reads depths, relative to the height of the picture. As in shaders/hollows.wgsl.
 const FARTHEST_READ: f32 = 0.3;
-/// Further pixels round a tile that the blur of ambient occlusion and its interpolation read, with some to spare.
-const BLUR_MARGIN: u32 = 16;
 
 /// How far beyond a tile ambient occlusion depends on depths, in pixels of a picture of `size` pixels; even.
 pub(super) fn occlusion_margin(camera: &Camera, scene: &Scene, look: &Look, size: UVec2) -> u32 {
@@ -149,19 +147,4 @@ fn lamp_matrix(lamp: Vec3, centre: Vec3, radius: f32) -> Mat4 {
     let r = radius * 1.02;
     let view = look_at_mat4(centre + lamp * r * 2.0, centre, Vec3::Y);
     directx::orthographic(-r, r, -r, r, r * 0.9, r * 4.5) * view
-}
-
-/// Gamma-encoded sRGB, 0..=1.
-pub(super) fn gamma(c: Rgb) -> Vec3 {
-    Vec3::from(c.map(|v| f32::from(v) / 255.0))
-}
-
-/// Linear RGB, 0..=1 (sRGB transfer function, IEC 61966-2-1).
-pub fn linear(c: Rgb) -> Vec3 {
-    Vec3::from(gamma(c).to_array().map(decoded))
-}
-
-/// Linear value of a gamma-encoded one, both 0..=1 (sRGB transfer function, IEC 61966-2-1).
-pub(super) fn decoded(v: f32) -> f32 {
-    if v <= 0.040_45 { v / 12.92 } else { ((v + 0.055) / 1.055).powf(2.4) }
 }

@@ -6,6 +6,8 @@ use std::f64::consts::{PI, TAU};
 use glam::{DVec3, Vec3};
 use image::Rgb32FImage;
 
+use super::srgb::luminance;
+
 /// Radiance from every direction, as its coefficients in the real spherical harmonics of order 0 to 2: 1; y, z, x;
 /// xy, yz, 3z² − 1, xz, x² − y², each normalised. Linear RGB.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -93,11 +95,6 @@ fn add(sum: &mut [DVec3; 9], direction: DVec3, light: DVec3) {
 fn polynomials(d: DVec3) -> [f64; 9] {
     let DVec3 { x, y, z } = d;
     [1.0, y, z, x, x * y, y * z, 3.0 * z * z - 1.0, x * z, x * x - y * y]
-}
-
-/// Luminance of linear RGB (Rec. 709).
-fn luminance(c: Vec3) -> f32 {
-    c.dot(Vec3::new(0.2126, 0.7152, 0.0722))
 }
 
 /// Nodes and weights of Gauss and Legendre's quadrature with `count` nodes on -1..=1, by Newton's method.

@@ -2,6 +2,12 @@
 
 use glam::UVec2;
 
+/// Texels (2 x 2 pixels each) of ambient occlusion that are computed round those that a part shows: its blur and its interpolation
+/// read them.
+pub(super) const BLUR_REACH: u32 = 6;
+/// Pixels round a tile that those texels take up, with some to spare; even.
+pub(super) const BLUR_MARGIN: u32 = 2 * BLUR_REACH + 4;
+
 /// A rectangle of the pixels of a picture, and the larger one round it that things are projected to and from which ambient
 /// occlusion is computed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -4,7 +4,7 @@ use glam::{UVec2, Vec2, Vec4};
 use image::{Rgba, RgbaImage};
 use rayon::prelude::*;
 
-use super::frame::linear;
+use super::srgb::{self, LINEAR, byte, linear};
 
 /// A picture and its smaller versions down to one pixel. Colours are sRGB of premultiplied linear ones.
 #[derive(Clone, Debug)]
@@ -105,15 +105,10 @@ fn decoded(pixel: &Rgba<u8>) -> Vec4 {
     Vec4::new(table[usize::from(r)], table[usize::from(g)], table[usize::from(b)], f32::from(a) / 255.0)
 }
 
-/// Linear light of each sRGB value.
-pub(super) static LINEAR: std::sync::LazyLock<[f32; 256]> =
-    std::sync::LazyLock::new(|| std::array::from_fn(|i| linear([i as u8; 3]).x));
-
 /// sRGB of a linear colour; alpha stays.
 pub(super) fn encoded(colour: Vec4) -> Rgba<u8> {
-    let byte = |c: f32| (c.clamp(0.0, 1.0) * 255.0).round() as u8;
-    let one = |c: f32| byte(if c <= 0.003_130_8 { c * 12.92 } else { 1.055 * c.powf(1.0 / 2.4) - 0.055 });
-    Rgba([one(colour.x), one(colour.y), one(colour.z), byte(colour.w)])
+    let [r, g, b] = srgb::encoded(colour.truncate());
+    Rgba([r, g, b, byte(colour.w)])
 }
 
 #[cfg(test)]

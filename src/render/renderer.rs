@@ -2,11 +2,12 @@
 
 use glam::UVec2;
 
-use super::buffers::{DeviceMesh, bind, upload};
+use super::buffers::{DeviceMesh, Wire, bind, upload};
 use super::frame::Frame;
 use super::gpu::DEPTH;
+use super::part::BLUR_REACH;
 use super::pipelines::{Pictured, Pipelines};
-use super::strokes::{Stroke, strokes};
+use super::strokes::strokes;
 use super::target::{HalfSize, texture};
 use super::{Camera, Gpu, Look, OffscreenTarget, Quality, RenderError, Scene};
 
@@ -25,13 +26,8 @@ struct Bound {
     /// Shadow map and ambient occlusion; None in a draft.
     light: Option<wgpu::BindGroup>,
     strokes: Option<(wgpu::Buffer, u32)>,
-    /// Edges of triangles as strokes, where they are wider than a pixel.
-    wires: Option<(wgpu::Buffer, u32)>,
     ground: bool,
 }
-
-/// Texels of ambient occlusion that are computed round those that a tile shows: the blur and the interpolation read them.
-const BLUR_REACH: u32 = 6;
 
 impl Renderer {
     /// Creates the pipelines and the shadow map.
@@ -63,9 +59,11 @@ impl Renderer {
         target: &OffscreenTarget,
     ) -> Result<(), RenderError> {
         let scope = gpu.device.push_error_scope(wgpu::ErrorFilter::OutOfMemory);
-        self.meshes =
-            upload(gpu, &self.pipelines, std::mem::take(&mut self.meshes), &scene.meshes, look.wire)?;
-        let bound = self.bind(gpu, scene, camera, look, target);
+        let frame = Frame::new(camera, scene, look, &target.part);
+        let wire = look.wire.then(|| Wire::new(look.drawn_per_pixel, frame.wire_lift()));
+        let last = std::mem::take(&mut self.meshes);
+        self.meshes = upload(gpu, &self.pipelines, last, &scene.meshes, wire)?;
+        let bound = self.bind(gpu, &frame, scene, camera, look, target);
         let mut encoder = gpu.device.create_command_encoder(&Default::default());
         if let Some(half) = &target.half {
             self.draw_shadow_map(&mut encoder, &bound);
@@ -76,7 +74,7 @@ impl Renderer {
         if target.quality == Quality::Draft {
             self.pipelines.prepare_drafts(gpu);
         }
-        self.draw_picture(&mut encoder, &bound, look, target);
+        self.draw_picture(&mut encoder, &bound, look, wire, target);
         gpu.queue.submit([encoder.finish()]);
         match pollster::block_on(scope.pop()) {
             Some(e) => Err(RenderError::Device(e.to_string())),
@@ -87,25 +85,16 @@ impl Renderer {
     fn bind(
         &self,
         gpu: &Gpu,
+        frame: &Frame,
         scene: &Scene,
         camera: &Camera,
         look: &Look,
         target: &OffscreenTarget,
     ) -> Bound {
-        let frame = Frame::new(camera, scene, look, &target.part);
-        let lift = frame.wire_lift();
-        let frame = gpu.buffer("frame", bytemuck::bytes_of(&frame), wgpu::BufferUsages::UNIFORM);
-        let wires: Vec<Stroke> = if look.wire && look.drawn_per_pixel > 1.0 {
-            let cloth = self.meshes.iter().filter(|mesh| mesh.is_cloth());
-            cloth.flat_map(|mesh| mesh.edge_strokes(look.drawn_per_pixel / 2.0, lift)).collect()
-        } else {
-            Vec::new()
-        };
-        let instances = |strokes: &[Stroke]| {
-            let bytes = bytemuck::cast_slice(strokes);
-            let buffer = || gpu.buffer("strokes", bytes, wgpu::BufferUsages::VERTEX);
-            (!strokes.is_empty()).then(|| (buffer(), strokes.len() as u32))
-        };
+        let frame = gpu.buffer("frame", bytemuck::bytes_of(frame), wgpu::BufferUsages::UNIFORM);
+        let strokes = strokes(&scene.lines, &scene.labels, look.pixels_per_point);
+        let bytes = bytemuck::cast_slice(&strokes);
+        let buffer = || gpu.buffer("strokes", bytes, wgpu::BufferUsages::VERTEX);
         let view = wgpu::BindingResource::TextureView;
         let p = &self.pipelines;
         Bound {
@@ -114,21 +103,28 @@ impl Renderer {
                 let sampler = wgpu::BindingResource::Sampler(&self.shadow_sampler);
                 bind(gpu, &p.light_layout, &[view(&self.shadow_map), sampler, view(&half.hollows)])
             }),
-            strokes: instances(&strokes(&scene.lines, &scene.labels, look.pixels_per_point)),
-            wires: instances(&wires),
+            strokes: (!strokes.is_empty()).then(|| (buffer(), strokes.len() as u32)),
             // Seen from below, the floor would only hide the scene.
             ground: scene.ground.is_some_and(|g| camera.eye().y > g.height) && !look.cut_out,
         }
     }
 
-    fn draw_wires(&self, pass: &mut wgpu::RenderPass<'_>, with: &Pictured) {
-        pass.set_pipeline(&with.wire);
-        for mesh in &self.meshes {
-            if let Some((edges, count)) = &mesh.edges {
-                pass.set_vertex_buffer(0, mesh.vertices.slice(..));
-                pass.set_index_buffer(edges.slice(..), wgpu::IndexFormat::Uint32);
-                pass.draw_indexed(0..*count, 0, 0..1);
+    fn draw_wire(&self, pass: &mut wgpu::RenderPass<'_>, with: &Pictured, wire: Wire) {
+        if wire == Wire::Thin {
+            pass.set_pipeline(&with.wire);
+            for mesh in &self.meshes {
+                if let Some((edges, count)) = &mesh.edges {
+                    pass.set_vertex_buffer(0, mesh.vertices.slice(..));
+                    pass.set_index_buffer(edges.slice(..), wgpu::IndexFormat::Uint32);
+                    pass.draw_indexed(0..*count, 0, 0..1);
+                }
             }
+            return;
+        }
+        pass.set_pipeline(&with.line);
+        for (strokes, count) in self.meshes.iter().filter_map(|mesh| mesh.strokes_as(wire)) {
+            pass.set_vertex_buffer(0, strokes.slice(..));
+            pass.draw(0..6, 0..count);
         }
     }
 
@@ -196,6 +192,7 @@ impl Renderer {
         encoder: &mut wgpu::CommandEncoder,
         bound: &Bound,
         look: &Look,
+        wire: Option<Wire>,
         target: &OffscreenTarget,
     ) {
         let colour = match &target.samples {
@@ -230,12 +227,8 @@ impl Renderer {
         self.draw_meshes(&mut pass, true, |mesh| !mesh.is_cloth());
         pass.set_pipeline(&with.open);
         self.draw_meshes(&mut pass, true, DeviceMesh::is_open);
-        if let Some((wires, count)) = &bound.wires {
-            pass.set_vertex_buffer(0, wires.slice(..));
-            pass.set_pipeline(&with.line);
-            pass.draw(0..6, 0..*count);
-        } else if look.wire {
-            self.draw_wires(&mut pass, with);
+        if let Some(wire) = wire {
+            self.draw_wire(&mut pass, with, wire);
         }
         if let Some((strokes, count)) = &bound.strokes {
             pass.set_vertex_buffer(0, strokes.slice(..));

@@ -147,6 +147,7 @@ fn edits([front, back]: [PieceId; 2], seam: SeamId) -> [Vec<PatternEdit>; 7] {
                 points: vec![(LinePoint { piece: front, line: 0, point: 1 }, high)],
             },
             PatternEdit::InsertLinePoint { edge: LinePoint { piece: front, line: 0, point: 0 }, at: 0.4 },
+            PatternEdit::SetLineSmooth { point: LinePoint { piece: front, line: 0, point: 1 }, smooth: true },
             PatternEdit::DeleteLinePoint { point: LinePoint { piece: front, line: 0, point: 1 } },
             PatternEdit::AddHole { piece: back, edges: pocket.outline },
             PatternEdit::PlaceInSpace {

@@ -430,6 +430,21 @@ fn a_picture_in_tiles_is_the_picture_in_one_piece() {
 }
 
 #[test]
+fn edges_that_were_drawn_in_one_width_are_drawn_anew_in_another() {
+    let (Some(mut used), Some(mut fresh)) = (studio(), studio()) else { return };
+    let scene = full_scene();
+    let camera = framed(&scene, View::Front, SIZE);
+    let look = Look { wire: true, ..Look::light() };
+    let drawn = |studio: &mut Studio, times| {
+        fine(studio, &scene, camera, &look, (SIZE, Fineness { times, tile: 128 })).0
+    };
+    let twice = drawn(&mut used, 2);
+    let [once, again] = [1, 2].map(|times| drawn(&mut used, times));
+    assert!(again == twice && once == drawn(&mut fresh, 1), "as by a renderer that has drawn nothing yet");
+    assert!(drawn(&mut used, 3) == drawn(&mut fresh, 3));
+}
+
+#[test]
 fn a_finer_picture_shows_the_same_in_the_same_widths() {
     let Some(mut studio) = studio() else { return };
     let mut scene = full_scene();

@@ -151,6 +151,23 @@ fn points_of_lines_are_moved_graded_undone_and_recorded() {
         s.apply_alone(Command::Undo).expect("undone");
         assert_eq!((line(&s).end, line(&s).end_rule), (DVec2::from(end), None));
     }
+    let inner = LinePoint { piece: PieceId(1), line: 0, point: 1 };
+    let before = line(&s);
+    for made in [
+        PatternEdit::InsertLinePoint { edge: LinePoint { point: 0, ..inner }, at: 0.5 },
+        PatternEdit::SetLineSmooth { point: inner, smooth: true },
+    ] {
+        s.apply_alone(edit(made)).expect("accepted");
+    }
+    assert!(line(&s).edges[1].smooth);
+    let mut replay = Replay::new(Recording::parse(&s.recording()).expect("a recording"));
+    replay.run().expect("the same document");
+    assert_eq!(replay.session().document(), s.document());
+    for label in ["make a point smooth", "add a point"] {
+        assert_eq!(s.undo_label(), Some(label));
+        s.apply_alone(Command::Undo).expect("undone");
+    }
+    assert_eq!(line(&s), before);
     let far = LinePoint { piece: PieceId(1), line: 0, point: 0 };
     let moved = PatternEdit::MoveLinePoints { points: vec![(far, DVec2::new(f64::NAN, 0.0))] };
     assert!(s.apply_alone(edit(moved)).expect_err("no place").0.contains("a place is not within"));

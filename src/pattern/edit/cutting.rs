@@ -153,11 +153,10 @@ fn is_straight(piece: &Piece, a: usize, b: usize) -> bool {
 /// The edges of an open line in the opposite direction.
 fn backwards(line: &InternalLine) -> Vec<Edge> {
     let n = line.edges.len();
-    let end = |i: usize| line.edges.get(i + 1).map_or(line.end, |e| e.start);
     (0..n)
         .rev()
         .map(|i| Edge {
-            start: end(i),
+            start: line.edge_end(i),
             shape: line.edges[i].shape.reversed(),
             rule: line.edges.get(i + 1).map_or(&line.end_rule, |e| &e.rule).clone(),
             ..Edge::default()

@@ -49,14 +49,12 @@ pub(super) fn set_rules(
     }
     for (at, rule) in rules {
         let piece = find(pattern, at.piece)?;
-        let missing =
-            || format!("{} has no point {} that could have a rule", piece.name, at.point.saturating_add(1));
+        if piece.place_of(at).is_none() {
+            let number = at.point.saturating_add(1);
+            return Err(format!("{} has no point {number} that could have a rule", piece.name));
+        }
         let image = match at.line {
-            None if at.point >= piece.edge_count() => return Err(missing()),
             None => symmetric_image(piece, at.point),
-            Some(line) if piece.lines.get(line).is_none_or(|line| at.point > line.edges.len()) => {
-                return Err(missing());
-            }
             Some(_) => None,
         };
         if let Some(piece) = pattern.pieces.get_mut(&at.piece) {

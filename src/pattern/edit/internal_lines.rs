@@ -6,7 +6,7 @@ use glam::DVec2;
 
 use crate::geometry::ids::PieceId;
 use crate::pattern::edit::pieces::change;
-use crate::pattern::edit::{Change, LinePoint, SHORTEST_EDGE, find, lines, points};
+use crate::pattern::edit::{Change, LinePoint, PointRef, SHORTEST_EDGE, find, lines, points};
 use crate::pattern::{Edge, EdgeRef, InternalLine, Pattern, Piece};
 
 pub(super) fn move_points(pattern: &mut Pattern, moves: &[(LinePoint, DVec2)]) -> Result<Change, String> {
@@ -67,6 +67,19 @@ pub(super) fn delete(pattern: &mut Pattern, at: LinePoint) -> Result<Change, Str
     }
     change(pattern, at.piece, |piece| piece.lines[at.line] = new);
     Ok(Change::new("take a point away"))
+}
+
+pub(super) fn set_smooth(pattern: &mut Pattern, at: LinePoint, smooth: bool) -> Result<Change, String> {
+    let line = line_of(pattern, at)?;
+    if at.point == 0 || at.point == line.edges.len() {
+        return Err("at its ends a line is neither smooth nor has it a corner".to_owned());
+    }
+    let mut closed = Closed::new(line);
+    let point = PointRef { piece: closed.id, point: at.point };
+    let done = points::set_smooth(&mut closed.pattern, point, smooth)?;
+    let new = closed.opened(line);
+    change(pattern, at.piece, |piece| piece.lines[at.line] = new);
+    Ok(done)
 }
 
 /// The line that a point is on. Err where there is no such line or point.
@@ -231,6 +244,46 @@ mod tests {
             |edge, at| done(&pattern, PatternEdit::InsertLinePoint { edge, at }).expect_err("refused");
         assert!(words(at(2), 0.5).contains("no edge starts at the end"));
         assert!(words(at(0), 1.0).contains("between its ends"));
+    }
+
+    #[test]
+    fn a_point_is_made_smooth_and_a_corner_again() {
+        let before = square(EdgeShape::Line, false);
+        let set = |pattern: &Pattern, point, smooth| {
+            let point = LinePoint { piece: A, line: 0, point };
+            apply(pattern, &PatternEdit::SetLineSmooth { point, smooth })
+        };
+        let smooth = set(&before, 1, true).expect("smooth");
+        assert_eq!(smooth.label, "make a point smooth");
+        let line = |pattern: &Pattern| pattern.pieces[&A].lines[0].clone();
+        let kink = |pattern: &Pattern| {
+            let line = line(pattern);
+            let [EdgeShape::Cubic { controls: [_, c] }, EdgeShape::Cubic { controls: [d, _] }] =
+                [0, 1].map(|i| line.edges[i].shape)
+            else {
+                panic!("curves")
+            };
+            let at = line.edges[1].start;
+            (at - c).angle_to(d - at).abs()
+        };
+        assert!(line(&smooth.pattern).edges[1].smooth && kink(&smooth.pattern) < 1e-9);
+        assert!(line(&smooth.pattern).points().eq(line(&before).points()), "its points stay");
+        assert_eq!(smooth.pattern.pieces[&A].outline, before.pieces[&A].outline);
+        let after = moved(&smooth.pattern, &[(1, v(0.2, 0.15))]).expect("moved");
+        assert!(kink(&after) < 1e-9, "it stays smooth");
+        let corner = set(&smooth.pattern, 1, false).expect("a corner");
+        assert_eq!(corner.label, "make a corner");
+        assert!(!line(&corner.pattern).edges[1].smooth);
+        for (point, words) in [(0, "at its ends"), (2, "at its ends"), (3, "has no point 4")] {
+            assert!(set(&before, point, true).expect_err("refused").contains(words));
+        }
+        let twins = apply(&before, &PatternEdit::AddTwin { piece: A, offset: v(1.0, 0.0) });
+        let smooth = set(&twins.expect("a twin").pattern, 1, true).expect("smooth").pattern;
+        let [own, image] = [A, PieceId(2)].map(|id| smooth.pieces[&id].lines[0].edges[1].clone());
+        assert!(own.smooth && image.smooth);
+        let EdgeShape::Cubic { controls: [first, _] } = own.shape else { panic!("a curve") };
+        let mirrored = v(-first.x, first.y);
+        assert!(matches!(image.shape, EdgeShape::Cubic { controls: [c, _] } if c == mirrored));
     }
 
     #[test]

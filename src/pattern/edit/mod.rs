@@ -145,6 +145,9 @@ pub enum PatternEdit {
     InsertLinePoint { edge: LinePoint, at: f64 },
     /// Delete a point of an internal line: two edges become one with the same tangents at its ends; at an end an edge goes.
     DeleteLinePoint { point: LinePoint },
+    /// Make an internal line smooth at a point between its ends, or let it have a corner there. Straight edges beside a smooth
+    /// point become curves.
+    SetLineSmooth { point: LinePoint, smooth: bool },
     /// Cut a hole into a piece.
     AddHole { piece: PieceId, edges: Vec<Edge> },
     /// Close a hole, by its number from 0, and remove the seams on its edges.
@@ -198,6 +201,17 @@ pub enum PatternEdit {
     SetSizes { sizes: SizeRun },
     /// Set or remove (None) the grade rules of points. The images of points on twins and symmetric halves follow.
     SetRules { rules: Vec<(RulePoint, Option<GradeRule>)> },
+}
+
+impl PatternEdit {
+    /// Makes a closed or an internal line smooth at a point, or lets it have a corner there.
+    pub fn smooth_at(at: RulePoint, smooth: bool) -> Self {
+        let RulePoint { piece, line, point } = at;
+        match line {
+            None => Self::SetSmooth { point: PointRef { piece, point }, smooth },
+            Some(line) => Self::SetLineSmooth { point: LinePoint { piece, line, point }, smooth },
+        }
+    }
 }
 
 /// How points of a piece moved in an edit, so that what is drawn there can follow.
@@ -347,6 +361,7 @@ fn carry_out(pattern: &mut Pattern, edit: &PatternEdit) -> Result<Change, String
         PatternEdit::MoveLinePoints { points } => internal_lines::move_points(pattern, points),
         PatternEdit::InsertLinePoint { edge, at } => internal_lines::insert(pattern, *edge, *at),
         PatternEdit::DeleteLinePoint { point } => internal_lines::delete(pattern, *point),
+        PatternEdit::SetLineSmooth { point, smooth } => internal_lines::set_smooth(pattern, *point, *smooth),
         PatternEdit::AddHole { piece, edges } => holes::add_hole(pattern, *piece, edges),
         PatternEdit::DeleteHole { piece, hole } => holes::delete_hole(pattern, *piece, *hole),
         PatternEdit::SetGrainline { piece, grainline } => cutting::set_grainline(pattern, *piece, *grainline),
@@ -393,9 +408,9 @@ fn pieces_named(edit: &PatternEdit) -> Vec<PieceId> {
         PatternEdit::Scale { pieces, .. } | PatternEdit::SetAllowance { pieces, .. } => pieces.clone(),
         PatternEdit::MovePoints { points } => points.iter().map(|(point, _)| point.piece).collect(),
         PatternEdit::MoveLinePoints { points } => points.iter().map(|(point, _)| point.piece).collect(),
-        PatternEdit::InsertLinePoint { edge: point, .. } | PatternEdit::DeleteLinePoint { point } => {
-            vec![point.piece]
-        }
+        PatternEdit::InsertLinePoint { edge: point, .. }
+        | PatternEdit::DeleteLinePoint { point }
+        | PatternEdit::SetLineSmooth { point, .. } => vec![point.piece],
         PatternEdit::SetRules { rules } => rules.iter().map(|(point, _)| point.piece).collect(),
         PatternEdit::SetEdge { edge, .. }
         | PatternEdit::InsertPoint { edge, .. }

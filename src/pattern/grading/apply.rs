@@ -145,7 +145,7 @@ fn graded_line(line: &InternalLine, field: &Field, size: usize) -> InternalLine 
     new.end = to(line.end, &line.end_rule);
     let starts: Vec<DVec2> = line.edges.iter().map(|edge| to(edge.start, &edge.rule)).collect();
     for (i, edge) in new.edges.iter_mut().enumerate() {
-        let old = [edge.start, line.edges.get(i + 1).map_or(line.end, |next| next.start)];
+        let old = [edge.start, line.edge_end(i)];
         let ends = [starts[i], starts.get(i + 1).copied().unwrap_or(new.end)];
         (edge.start, edge.shape) = (ends[0], edge.shape.carried(old, ends));
     }

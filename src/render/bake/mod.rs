@@ -11,12 +11,13 @@ use image::{Rgb as Pixel, RgbImage};
 use rayon::prelude::*;
 
 use self::owners::{NOBODY, owners};
-use self::yarn::{Lattice, mean_yarn, printed, repeat, smoothstep, yarn};
+use self::yarn::{Lattice, mean_yarn, printed, repeat, yarn};
 use super::decal::{Decal, pictures};
-use super::frame::linear;
 use super::pyramid::Pyramid;
 use super::scene::Rgb;
+use super::srgb::{encoded, linear};
 use super::textile::Textile;
+use super::wgsl::{mix, smoothstep};
 
 pub use self::owners::overlap;
 
@@ -160,7 +161,6 @@ fn albedo<'d>(
     let noise = |scale: Vec2| Lattice::default().noise(p * scale);
     let uneven = noise(Vec2::new(0.31, 0.043)) + noise(Vec2::new(0.043, 0.31)) - 1.0;
     let slubs = 1.0 + textile.slubs * uneven * (1.0 - smoothstep(0.3, 0.9, threads * 0.31));
-    let mix = |a: f32, b: f32, t: f32| a + (b - a) * t;
     let (height, share) = (mix(mean.height, here.height, sharp), mix(mean.second, here.second, sharp));
     let repeat = textile.repeat.max(1e-6);
     let inked = printed(textile.print, at / repeat, width / repeat);
@@ -194,12 +194,6 @@ fn slope(textile: &Textile, at: Vec2, width: f32, lattice: Lattice) -> Vec2 {
 fn normal(slope: Vec2) -> Rgb {
     let unit = Vec3::new(-slope.x, -slope.y, 1.0).normalize();
     (unit * 127.0 + 128.0).round().to_array().map(|c| c as u8)
-}
-
-/// sRGB of a linear colour.
-fn encoded(linear: Vec3) -> Rgb {
-    let one = |c: f32| if c <= 0.003_130_8 { c * 12.92 } else { 1.055 * c.powf(1.0 / 2.4) - 0.055 };
-    linear.to_array().map(|c| (one(c.clamp(0.0, 1.0)) * 255.0).round() as u8)
 }
 
 #[cfg(test)]

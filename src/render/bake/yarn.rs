@@ -5,6 +5,8 @@ use std::f32::consts::PI;
 
 use glam::{IVec2, Vec2};
 
+use crate::render::wgsl::{mix, smoothstep};
+
 /// A place of the cloth.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Yarn {
@@ -72,15 +74,6 @@ fn hash(cell: IVec2) -> f32 {
     n = (n ^ (n >> 16)).wrapping_mul(0x7feb_352d);
     n = (n ^ (n >> 15)).wrapping_mul(0x846c_a68b);
     ((n ^ (n >> 16)) >> 8) as f32 / 16_777_216.0
-}
-
-fn mix(a: f32, b: f32, t: f32) -> f32 {
-    a + (b - a) * t
-}
-
-pub(super) fn smoothstep(low: f32, high: f32, x: f32) -> f32 {
-    let t = ((x - low) / (high - low)).clamp(0.0, 1.0);
-    t * t * (3.0 - 2.0 * t)
 }
 
 fn fract(x: f32) -> f32 {

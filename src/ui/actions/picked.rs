@@ -3,8 +3,8 @@
 use std::collections::BTreeSet;
 
 use crate::geometry::ids::PieceId;
-use crate::pattern::Pattern;
 use crate::pattern::activity::Activity;
+use crate::pattern::{Pattern, RulePoint};
 use crate::ui::pattern_pane::edits::{deletions, is_rolled, is_straight};
 use crate::ui::selection::Selection;
 
@@ -13,6 +13,7 @@ use crate::ui::selection::Selection;
 pub struct Picked {
     /// Number of selected pieces, including those of selected points and edges.
     pub pieces: usize,
+    /// Number of selected points at which a line can be smooth or have a corner: all but the ends of lines inside pieces.
     pub points: usize,
     pub edges: usize,
     /// Number of selected lines inside pieces.
@@ -46,10 +47,11 @@ impl Picked {
     pub fn new(pattern: &Pattern, selection: &Selection) -> Self {
         let touched: BTreeSet<PieceId> = selection.pieces_touched();
         let pieces = || touched.iter().filter_map(|id| pattern.pieces.get(id));
+        let has_corner = |at: &RulePoint| pattern.pieces.get(&at.piece)?.is_smooth_at(at);
         let first = pieces().next().map(|piece| piece.activity);
         Self {
             pieces: touched.len(),
-            points: selection.points.len(),
+            points: selection.all_points().filter(|at| has_corner(at).is_some()).count(),
             edges: selection.edges.len(),
             lines: selection.lines.len(),
             buttons: !pattern.buttons.is_empty(),

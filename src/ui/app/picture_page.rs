@@ -199,7 +199,12 @@ impl App {
         let mut camera = self.scene_pane.camera;
         if let Some(view) = options.view {
             let session = self.demo.as_ref().map_or(&self.session, |(player, ..)| player.session());
-            let extras = Extras { marks: options.marks, pins: options.marks, ..Extras::default() };
+            let extras = Extras {
+                marks: options.marks,
+                pins: options.marks,
+                map: None,
+                body_look: self.shell.sight.body_look,
+            };
             let scene = portrait(&mut self.scenery, session, extras);
             camera = Camera { projection: camera.projection, ..Camera::default() };
             camera.look(view);

@@ -20,7 +20,6 @@ use crate::io::pattern_formats::{self, PatternFormat, endings};
 use crate::io::pdf::Paper;
 use crate::io::rul;
 use crate::io::scale::{DrawingUnit, ScaleQuestion};
-use crate::io::usd::UsdFormat;
 use crate::io::{FILE_BYTES, bvh, gltf};
 use crate::marker::{FinishedMarker, MarkerFormat};
 use crate::pattern::Pattern;
@@ -32,7 +31,7 @@ use crate::session::{
 use crate::sim::Snapshot;
 use crate::ui::language::{say, tr};
 use crate::ui::scenery::fabric_textures::USUAL_SIDE;
-use crate::ui::scenery::worn::Worn;
+use crate::ui::scenery::worn::{self, Worn};
 
 /// Extensions of the pattern formats that can be written.
 const WRITTEN_ENDINGS: [&str; 4] = {
@@ -126,7 +125,7 @@ impl Purpose {
             Self::Sequence => ("Body", &["obj"]),
             Self::Sizes => ("Table of sizes", &["csv", "tsv", "txt"]),
             Self::Image => ("Image", &["png", "jpg", "jpeg"]),
-            Self::Export => ("Garment", &["obj", "glb", "usda", "usdz"]),
+            Self::Export => ("Garment", &worn::ENDINGS),
             Self::Recording => ("Recording", &["jsonl"]),
             Self::Picture | Self::Turn => ("Picture", &["png"]),
             Self::FitPage => ("Page", &["html"]),
@@ -408,15 +407,8 @@ pub fn export(
     };
     let worn = Worn { garment, cloth, pattern, document };
     let body = snapshot.body.as_ref().map(|b| &b.mesh);
-    let (side, layout) = (USUAL_SIDE, AtlasLayout::Pattern);
-    let ending = path.extension().map(|e| e.to_string_lossy().to_lowercase()).unwrap_or_default();
-    let written = match (ending.as_str(), UsdFormat::of_ending(&ending)) {
-        ("obj", _) => worn.obj(side, layout, path),
-        ("glb", _) => worn.glb(side, layout, body).map(|bytes| vec![(path.to_owned(), bytes)]),
-        (_, Some(format)) => worn.usd(side, layout, body, path, format),
-        _ => Err(tr("the name must end in .obj, .glb, .usda or .usdz").to_owned()),
-    };
-    let files = written.map_err(|e| in_words(path, Deed::Write, e))?;
+    let files = worn.files(USUAL_SIDE, AtlasLayout::Pattern, body, path);
+    let files = files.map_err(|e| in_words(path, Deed::Write, e))?;
     match &files[..] {
         [(path, bytes)] => write(path, bytes),
         _ => whole_file::write_together(&files).map_err(|(path, e)| in_words(&path, Deed::Write, e)),

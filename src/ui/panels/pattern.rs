@@ -330,6 +330,10 @@ fn line_point_ui(ui: &mut egui::Ui, told: &PanelContext<'_>, at: LinePoint, asks
         let to = piece.pose.piece_from_plane(to);
         asks.push(ask(vec![PatternEdit::MoveLinePoints { points: vec![(at, to)] }]));
     }
+    let Some(mut smooth) = piece.is_smooth_at(&at.into()) else { return };
+    if ui.checkbox(&mut smooth, tr("Smooth")).on_hover_text(tr(Action::ToggleSmooth.row().tip)).changed() {
+        asks.push(ask(vec![PatternEdit::SetLineSmooth { point: at, smooth }]));
+    }
 }
 
 /// Draws fields with the coordinates of a place on the table; returns the place with a newly entered one.

@@ -12,8 +12,8 @@ use crate::ui::actions::asks::{Ask, Asks};
 use crate::ui::language::{say, tr};
 use crate::ui::panels::context::{PanelContext, problem_row};
 use crate::ui::panels::fields::length_field;
+use crate::ui::pattern_pane::line_points::points_of;
 use crate::ui::pattern_pane::nests::{SizeView, size_colour};
-use crate::ui::selection::LineRef;
 
 /// Most seams that are told.
 const MOST_TOLD: usize = 6;
@@ -145,12 +145,8 @@ fn selected(told: &PanelContext<'_>) -> Vec<RulePoint> {
     if !points.is_empty() {
         return points;
     }
-    let of_line = |&LineRef { piece, line }: &LineRef| {
-        let found = told.document.pattern.pieces.get(&piece).and_then(|piece| piece.lines.get(line));
-        let count = found.map_or(0, |line| line.edges.len() + 1);
-        (0..count).map(move |point| RulePoint { piece, line: Some(line), point })
-    };
-    told.selection.lines.iter().flat_map(of_line).collect()
+    let lines = told.selection.lines.iter();
+    lines.flat_map(|line| points_of(&told.document.pattern, *line)).collect()
 }
 
 /// Whose rule is shown: that of a point, for so many `more`.

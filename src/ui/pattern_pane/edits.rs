@@ -8,8 +8,8 @@ use crate::geometry::ids::{PieceId, SeamId};
 use crate::pattern::activity::Activity;
 use crate::pattern::edit::{LinePoint, PatternEdit, PointRef, TrimLine};
 use crate::pattern::{
-    EdgeRef, EdgeShape, Elastic, Fold, Hem, Pattern, Piece, Piping, PlanePose, SpacePose, Topstitch, Trims,
-    Zip, curve,
+    EdgeRef, EdgeShape, Elastic, Fold, Hem, Pattern, Piece, Piping, PlanePose, RulePoint, SpacePose,
+    Topstitch, Trims, Zip, curve,
 };
 use crate::place::rolled_up;
 use crate::ui::actions::Action;
@@ -142,11 +142,10 @@ fn edits_of_edges(action: Action, pattern: &Pattern, selection: &Selection) -> V
             edges.map(|&edge| PatternEdit::InsertPoint { edge, at: 0.5 }).collect()
         }
         Action::ToggleSmooth => {
-            let is_smooth = |point: &PointRef| {
-                pattern.pieces.get(&point.piece).is_some_and(|piece| piece.edge(point.point).smooth)
-            };
-            let smooth = !selection.points.iter().all(is_smooth);
-            selection.points.iter().map(|&point| PatternEdit::SetSmooth { point, smooth }).collect()
+            let of_point = |at: RulePoint| Some((at, pattern.pieces.get(&at.piece)?.is_smooth_at(&at)?));
+            let points: Vec<(RulePoint, bool)> = selection.all_points().filter_map(of_point).collect();
+            let smooth = !points.iter().all(|(_, is_smooth)| *is_smooth);
+            points.into_iter().map(|(at, _)| PatternEdit::smooth_at(at, smooth)).collect()
         }
         Action::Straighten => {
             let straight = |&edge: &EdgeRef| PatternEdit::SetEdge { edge, shape: EdgeShape::Line };
@@ -379,6 +378,35 @@ mod tests {
         };
         assert_eq!(gone(&[1]), [PatternEdit::DeleteLinePoint { point: at(1) }]);
         assert_eq!(gone(&[0, 2]), [PatternEdit::DeleteLine { piece, line: 0 }]);
+    }
+
+    #[test]
+    fn points_of_outlines_and_lines_become_smooth_together_and_corners_again() {
+        let (mut pattern, piece) = square();
+        let line = |smooth| {
+            let start = DVec2::splat(0.4);
+            let edges = vec![
+                crate::pattern::Edge::default(),
+                crate::pattern::Edge { start, smooth, ..Default::default() },
+            ];
+            vec![crate::pattern::InternalLine { edges, end: DVec2::splat(0.8), ..Default::default() }]
+        };
+        let mut selection = Selection::default();
+        selection.points.insert(PointRef { piece, point: 1 });
+        // An end of a line is neither smooth nor a corner.
+        selection.line_points.extend([1, 2].map(|point| LinePoint { piece, line: 0, point }));
+        for (closed, inside, smooth) in [(false, false, true), (true, false, true), (true, true, false)] {
+            let change = Arc::make_mut(pattern.pieces.get_mut(&piece).expect("the piece"));
+            (change.outline[1].smooth, change.lines) = (closed, line(inside));
+            let point = LinePoint { piece, line: 0, point: 1 };
+            assert_eq!(
+                edits(Action::ToggleSmooth, &pattern, &selection),
+                [
+                    PatternEdit::SetSmooth { point: PointRef { piece, point: 1 }, smooth },
+                    PatternEdit::SetLineSmooth { point, smooth }
+                ]
+            );
+        }
     }
 
     #[test]

@@ -4,7 +4,7 @@ use glam::DVec2;
 
 use super::table::{NEAR_EDGE, REACH, Table};
 use super::threads::to_polyline;
-use crate::pattern::{Piece, RulePoint};
+use crate::pattern::{Pattern, RulePoint};
 use crate::ui::selection::{LineRef, Selection};
 
 impl Table<'_> {
@@ -13,7 +13,7 @@ impl Table<'_> {
     pub fn points_shown(&self) -> impl Iterator<Item = (RulePoint, DVec2)> {
         let closed = self.points().map(|(point, _)| RulePoint::from(point));
         let lines = self.laid.selection.lines_touched().into_iter();
-        let inside = lines.flat_map(|line| points_of(self.pattern().pieces.get(&line.piece), line));
+        let inside = lines.flat_map(|line| points_of(self.pattern(), line));
         let seen =
             inside.filter(|at| self.pattern().pieces.get(&at.piece).is_some_and(|piece| !piece.hidden));
         closed.chain(seen).filter_map(|at| Some((at, self.place_shown(at)?)))
@@ -62,7 +62,7 @@ impl Table<'_> {
     /// out. Of a line that ends where it starts both ends are held.
     pub fn held_points(&self, selection: &Selection) -> Vec<(RulePoint, DVec2)> {
         let lines = selection.lines.iter();
-        let of_lines = lines.flat_map(|line| points_of(self.pattern().pieces.get(&line.piece), *line));
+        let of_lines = lines.flat_map(|line| points_of(self.pattern(), *line));
         let mut held: Vec<RulePoint> = selection.all_points().chain(of_lines).collect();
         held.extend(held.clone().into_iter().filter_map(|at| {
             let line = self.pattern().pieces.get(&at.piece)?.lines.get(at.line?)?;
@@ -75,8 +75,9 @@ impl Table<'_> {
     }
 }
 
-/// The points of an internal line of `piece`.
-fn points_of(piece: Option<&std::sync::Arc<Piece>>, line: LineRef) -> impl Iterator<Item = RulePoint> {
-    let count = piece.and_then(|piece| piece.lines.get(line.line)).map_or(0, |line| line.edges.len() + 1);
+/// The points of an internal line; none where there is no such line.
+pub fn points_of(pattern: &Pattern, line: LineRef) -> impl Iterator<Item = RulePoint> {
+    let found = pattern.pieces.get(&line.piece).and_then(|piece| piece.lines.get(line.line));
+    let count = found.map_or(0, |line| line.edges.len() + 1);
     (0..count).map(move |point| RulePoint { piece: line.piece, line: Some(line.line), point })
 }

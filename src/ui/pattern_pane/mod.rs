@@ -9,7 +9,7 @@ mod entry;
 mod guides;
 mod input;
 pub(in crate::ui) mod kept;
-mod line_points;
+pub mod line_points;
 mod names;
 pub(in crate::ui) mod nests;
 mod options;

@@ -91,7 +91,7 @@ fn piped_lines(piece: &Piece) -> Vec<Line> {
     }
     for line in &piece.lines {
         for (i, edge) in line.edges.iter().enumerate() {
-            push(edge, line.edges.get(i + 1).map_or(line.end, |next| next.start));
+            push(edge, line.edge_end(i));
         }
     }
     lines

@@ -8,11 +8,16 @@ use crate::io::atlas::AtlasLayout;
 use crate::io::dressed::Dressed;
 use crate::io::materials::Colours;
 use crate::io::usd::{UsdFormat, UsdScene};
+use crate::io::words::any_of;
 use crate::io::{glb, mtl, obj};
 use crate::pattern::Pattern;
 use crate::session::Document;
+use crate::ui::language::say;
 use crate::ui::scenery::fabric_looks::materials;
 use crate::ui::scenery::fabric_textures::{Relief, TextureOptions, textured};
+
+/// Endings of the files of dressed cloth, in lower case.
+pub const ENDINGS: [&str; 4] = ["obj", "glb", "usda", "usdz"];
 
 /// Dressed cloth to be written.
 #[derive(Clone, Copy)]
@@ -35,11 +40,32 @@ impl Worn<'_> {
         }
     }
 
+    /// The files of it at `path`, in the format of its ending: as OBJ alone with files beside it, as binary glTF or USD together
+    /// with `body`. `side` are the pixels of textures each way; 0: colours alone.
+    ///
+    /// # Errors
+    /// In words: an ending that is none of [`ENDINGS`], what is larger than the format or a texture allows.
+    pub fn files(
+        self,
+        side: u32,
+        layout: AtlasLayout,
+        body: Option<&TriMesh>,
+        path: &Path,
+    ) -> Result<Vec<(PathBuf, Vec<u8>)>, String> {
+        let ending = ending(path);
+        match (ending.as_str(), UsdFormat::of_ending(&ending)) {
+            ("obj", _) => self.obj(side, layout, path),
+            ("glb", _) => Ok(vec![(path.to_owned(), self.glb(side, layout, body)?)]),
+            (_, Some(format)) => self.usd(side, layout, body, path, format),
+            _ => Err(say!("the name must end in {endings}", endings = any_of(ENDINGS))),
+        }
+    }
+
     /// It on `body` as binary glTF with textures of `side` pixels each way; 0: colours alone.
     ///
     /// # Errors
     /// In words: what is larger than the format or a texture allows.
-    pub fn glb(self, side: u32, layout: AtlasLayout, body: Option<&TriMesh>) -> Result<Vec<u8>, String> {
+    fn glb(self, side: u32, layout: AtlasLayout, body: Option<&TriMesh>) -> Result<Vec<u8>, String> {
         let colours = self.colours(TextureOptions { side, layout, relief: Relief::Tiles, inside: true })?;
         glb::write(Some(self.dressed()), body, &colours).map_err(|e| e.to_string())
     }
@@ -49,7 +75,7 @@ impl Worn<'_> {
     ///
     /// # Errors
     /// In words: what is larger than the format or a texture allows.
-    pub fn usd(
+    fn usd(
         self,
         side: u32,
         layout: AtlasLayout,
@@ -79,7 +105,7 @@ impl Worn<'_> {
     ///
     /// # Errors
     /// In words: what is larger than a texture allows.
-    pub fn obj(self, side: u32, layout: AtlasLayout, path: &Path) -> Result<Vec<(PathBuf, Vec<u8>)>, String> {
+    fn obj(self, side: u32, layout: AtlasLayout, path: &Path) -> Result<Vec<(PathBuf, Vec<u8>)>, String> {
         let colours = self.colours(TextureOptions { side, layout, relief: Relief::Atlas, inside: false })?;
         let stem = stem(path);
         let image_name = |name: &str| format!("{stem}-{name}.png");
@@ -100,8 +126,36 @@ impl Worn<'_> {
     }
 }
 
+/// The ending of the name of `path`, in lower case, without its dot.
+pub fn ending(path: &Path) -> String {
+    path.extension().map(|ending| ending.to_string_lossy().to_lowercase()).unwrap_or_default()
+}
+
 /// The name of `path` without its ending, for files beside it.
 fn stem(path: &Path) -> String {
     let stem = path.file_stem().map_or_else(|| "garment".into(), |stem| stem.to_string_lossy());
     mtl::plain(&stem)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_ending_has_its_files_and_others_are_refused() {
+        let (garment, cloth) = (Garment::default(), ClothState::default());
+        let (pattern, document) = (Pattern::default(), Document::default());
+        let worn = Worn { garment: &garment, cloth: &cloth, pattern: &pattern, document: &document };
+        let files = |name: &str| worn.files(0, AtlasLayout::Pattern, None, Path::new(name));
+        let refused = |name: &str| files(name).is_err_and(|why| why.contains(".obj, .glb, .usda or .usdz"));
+        for ending in ENDINGS {
+            assert!(!refused(&format!("cloth.{ending}")), "{ending}");
+        }
+        let names: Vec<PathBuf> =
+            files("out/cloth.OBJ").expect("files").into_iter().map(|(path, _)| path).collect();
+        assert_eq!(names, ["out/cloth.OBJ", "out/cloth.mtl"].map(PathBuf::from));
+        for name in ["cloth.dxf", "cloth", ".obj"] {
+            assert!(refused(name), "{name}");
+        }
+    }
 }

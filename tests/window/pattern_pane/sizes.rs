@@ -197,20 +197,44 @@ fn points_of_a_line_and_the_line_are_dragged_in_the_base_size() {
     assert_eq!(steps(&window), ["move 2 points"]);
 }
 
+/// Clicks twice in one place, and waits until another click is not the third.
+fn double_click(window: &mut Window, at: Pos2) {
+    move_to(window, at);
+    for _ in 0..2 {
+        button(window, at, true, Modifiers::NONE);
+        button(window, at, false, Modifiers::NONE);
+    }
+    window.run_steps(3);
+    std::thread::sleep(Duration::from_millis(2));
+    window.run_steps(30);
+}
+
+#[test]
+fn a_double_click_on_a_point_of_a_line_makes_it_smooth_and_a_corner_again() {
+    let mut start = with_line();
+    let id = start.piece_named("A").expect("a square");
+    let bent = &mut Arc::make_mut(start.pieces.get_mut(&id).expect("the square")).lines[0];
+    bent.edges.push(Edge { start: DVec2::new(0.1, 0.07), ..Edge::default() });
+    let mut window = window_on(start);
+    select(&mut window, "A, line 1");
+    let point = drawn(&window, "A, line 1, point 2");
+    double_click(&mut window, point);
+    assert!(line(&window).edges[1].smooth);
+    double_click(&mut window, point);
+    assert!(!line(&window).edges[1].smooth);
+    // An end is neither.
+    let end = drawn(&window, "A, line 1, point 3");
+    double_click(&mut window, end);
+    assert_eq!(steps(&window), ["make a point smooth", "make a corner"]);
+}
+
 #[test]
 fn a_line_gets_a_point_by_a_double_click_and_loses_it_again() {
     let mut window = window_on(with_line());
     press(&mut window, Key::A);
     let middle = drawn(&window, "A, line 1");
-    move_to(&mut window, middle);
-    for _ in 0..2 {
-        button(&mut window, middle, true, Modifiers::NONE);
-        button(&mut window, middle, false, Modifiers::NONE);
-    }
-    window.run_steps(3);
+    double_click(&mut window, middle);
     assert_eq!(line(&window).edges.len(), 2);
-    std::thread::sleep(Duration::from_millis(2));
-    window.run_steps(30);
     let point = drawn(&window, "A, line 1, point 2");
     click(&mut window, point);
     press(&mut window, Key::Delete);

@@ -133,7 +133,7 @@ pub const ROWS: &[Row] = &[
         "Pattern",
         Action::ToggleSmooth,
         "Smooth",
-        "Make the outline smooth at the selected points, or break it there",
+        "Make outlines and lines smooth at the selected points, or break them there",
     )
     .needs(&[Need::PickedPoint]),
     row("Pattern", Action::Straighten, "Straight", "Make the selected edges straight")

@@ -9,7 +9,7 @@ use super::select::next;
 use super::{PatternTool, done, dragged, grade};
 use crate::geometry::ids::PieceId;
 use crate::pattern::edit::{LinePoint, PatternEdit, PointRef};
-use crate::pattern::{EdgeRef, EdgeShape, Piece, RulePoint, curve};
+use crate::pattern::{EdgeRef, EdgeShape, RulePoint, curve};
 use crate::ui::actions::asks::{Ask, Asks};
 use crate::ui::language::{say, tr};
 use crate::ui::pattern_pane::draw::Drawing;
@@ -187,8 +187,12 @@ impl Points {
         let Some(item) = self.under(table, p) else { return };
         let edit = match item {
             Item::Point(point) if table.is_free(point.piece) => {
-                let smooth = !table.pattern().pieces[&point.piece].edge(point.point).smooth;
-                PatternEdit::SetSmooth { point, smooth }
+                let Some(edit) = smooth_or_corner(table, point.into()) else { return };
+                edit
+            }
+            Item::LinePoint(point) if table.is_free(point.piece) => {
+                let Some(edit) = smooth_or_corner(table, point.into()) else { return };
+                edit
             }
             Item::Edge(edge) if table.is_free(edge.piece) => {
                 let Some(hit) = table.edge_at(p) else { return };
@@ -267,7 +271,8 @@ impl PatternTool for Points {
         for (point, p) in table.points_shown() {
             if drawing.pane.contains(drawing.place(p)) {
                 let is_selected = table.laid.selection.has(point.into());
-                drawing.knob(p, is_smooth(&table.pattern().pieces[&point.piece], point), is_selected);
+                let is_smooth = table.pattern().pieces[&point.piece].is_smooth_at(&point);
+                drawing.knob(p, is_smooth == Some(true), is_selected);
             }
         }
         let at = input.hover.unwrap_or(drawing.pane.center());
@@ -365,15 +370,10 @@ impl PatternTool for Points {
     }
 }
 
-/// Whether a closed or an internal line is smooth at a point.
-fn is_smooth(piece: &Piece, at: RulePoint) -> bool {
-    match at.line {
-        None => piece.edge(at.point).smooth,
-        Some(line) => {
-            let edges = piece.lines.get(line).map_or(&[][..], |line| &line.edges);
-            at.point > 0 && edges.get(at.point).is_some_and(|edge| edge.smooth)
-        }
-    }
+/// The edit that makes a corner smooth, or a smooth point a corner; None at the ends of an internal line.
+fn smooth_or_corner(table: &Table<'_>, at: RulePoint) -> Option<PatternEdit> {
+    let smooth = table.pattern().pieces.get(&at.piece)?.is_smooth_at(&at)?;
+    Some(PatternEdit::smooth_at(at, !smooth))
 }
 
 /// Selected points, those of selected internal lines and the ends of selected edges, with their positions on the table; those of
