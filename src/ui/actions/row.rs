@@ -86,6 +86,8 @@ pub enum Need {
     Pins,
     /// Another garment is shown beside.
     Comparison,
+    /// An environment map lights the scene.
+    EnvironmentMap,
     /// Something that can be deleted is selected.
     Selection,
     /// A piece is selected.

@@ -58,6 +58,7 @@ impl App {
             Purpose::Pose => self.take_pose(path),
             Purpose::Sequence => self.take_sequence(path),
             Purpose::Compare => self.compare_with(ctx, path),
+            Purpose::Environment => self.choose_environment(ctx, path),
             Purpose::Sizes => self.take_sizes(path),
             Purpose::Export => {
                 let shown = self.shown();
@@ -227,8 +228,9 @@ impl App {
                 Dropped::Pattern => self.file(ctx, Purpose::ImportPattern, &path),
                 Dropped::Body => self.file(ctx, Purpose::ImportBody, &path),
                 Dropped::Image => self.file(ctx, Purpose::Image, &path),
+                Dropped::Environment => self.file(ctx, Purpose::Environment, &path),
                 Dropped::Nothing => self.messages.error(say!(
-                    "{path} is neither a project (.toile), a pattern (.dxf, .svg, .json), a body (.obj, .glb, .gltf) nor an image (.png, .jpg)",
+                    "{path} is neither a project (.toile), a pattern (.dxf, .svg, .json), a body (.obj, .glb, .gltf), an image (.png, .jpg) nor an environment map (.hdr)",
                     path = path.display()
                 )),
             }

@@ -23,6 +23,7 @@ use crate::io::scale::{DrawingUnit, ScaleQuestion};
 use crate::io::{FILE_BYTES, bvh, gltf};
 use crate::marker::{FinishedMarker, MarkerFormat};
 use crate::pattern::Pattern;
+use crate::render::Harmonics;
 use crate::session::project_file::ProjectFileError;
 use crate::session::samples::Sample;
 use crate::session::{
@@ -30,6 +31,7 @@ use crate::session::{
 };
 use crate::sim::Snapshot;
 use crate::ui::language::{say, tr};
+use crate::ui::scenery::environment::light_of;
 use crate::ui::scenery::fabric_textures::USUAL_SIDE;
 use crate::ui::scenery::worn::{self, Worn};
 
@@ -86,6 +88,8 @@ pub enum Purpose {
     AllSizes,
     /// Read another project, to compare with.
     Compare,
+    /// Read an image of the surroundings, which lights the scene.
+    Environment,
 }
 
 impl Purpose {
@@ -111,6 +115,7 @@ impl Purpose {
             Self::Marker(_) => "Save the marker",
             Self::AllSizes => "Save the table of all sizes",
             Self::Compare => "Compare with another project",
+            Self::Environment => "Choose an environment map",
         }
     }
 
@@ -134,6 +139,7 @@ impl Purpose {
             Self::Marker(MarkerFormat::Svg) => ("Marker", &["svg"]),
             Self::Marker(MarkerFormat::Dxf) => ("Marker", &["dxf"]),
             Self::AllSizes => ("Table", &["csv"]),
+            Self::Environment => ("Environment map", &["hdr", "png", "jpg", "jpeg"]),
         }
     }
 
@@ -391,6 +397,11 @@ pub fn take_image(path: &Path) -> Result<Command, String> {
     let file = ImageFile::new(name, read(path)?);
     file.picture().map_err(|why| in_words(path, Deed::Take, why))?;
     Ok(Command::AddImage { file: Arc::new(file) })
+}
+
+/// Light from all sides out of the image at `path`.
+pub fn read_environment(path: &Path) -> Result<Harmonics, String> {
+    light_of(&read(path)?).map_err(|why| in_words(path, Deed::Read, why))
 }
 
 /// Writes the dressed garment of `snapshot` with its textures: as .obj with files beside it, as .glb or USD together with its

@@ -3,6 +3,7 @@
 pub mod body_look;
 pub(in crate::ui) mod cords;
 pub(in crate::ui) mod covered;
+pub mod environment;
 pub mod fabric_looks;
 pub mod fabric_textures;
 pub mod front_and_back;

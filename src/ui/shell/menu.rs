@@ -275,6 +275,7 @@ fn view_ui(ui: &mut egui::Ui, now: &FrameContext, asks: &mut Asks) {
         items(ui, now, asks, &Theme::ALL.map(Action::Theme));
         ui.separator();
         items(ui, now, asks, &Light::ALL.map(Action::Light));
+        items(ui, now, asks, &[Action::EnvironmentMap, Action::RotateEnvironment]);
     });
     ui.menu_button(tr("Mouse"), |ui| items(ui, now, asks, &Mouse::ALL.map(Action::Mouse)));
 }
