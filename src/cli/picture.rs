@@ -12,7 +12,7 @@ use crate::cli::files;
 use crate::cli::interrupt;
 use crate::pack::Picture;
 use crate::render::{
-    Fineness, Harmonics, Legend, Look, RenderError, Rgb, Studio, View, framed, png, straightened,
+    Fineness, Harmonics, Legend, Lens, Look, RenderError, Rgb, Studio, View, framed, png, straightened,
 };
 use crate::session::{Outfit, Session};
 use crate::ui::fit_page::FitPage;
@@ -27,18 +27,25 @@ pub struct Artist {
     scenery: Scenery,
     /// Light from all sides; None: that of the options.
     environment: Option<Harmonics>,
+    /// The lens that blurs what is out of focus.
+    lens: Option<Lens>,
 }
 
 impl Artist {
     /// Opens the best graphics adapter available.
     pub fn new() -> Result<Self, Failure> {
         let studio = Studio::new().map_err(failure)?;
-        Ok(Self { studio, scenery: Scenery::default(), environment: None })
+        Ok(Self { studio, scenery: Scenery::default(), environment: None, lens: None })
     }
 
     /// The same with this light from all sides in [`Artist::png`].
     pub fn lit_by(self, environment: Option<Harmonics>) -> Self {
         Self { environment, ..self }
+    }
+
+    /// The same with this lens in [`Artist::png`].
+    pub fn through(self, lens: Option<Lens>) -> Self {
+        Self { lens, ..self }
     }
 
     /// Draws the cloth of `outfit` on its body, with a colour for each vertex and `legend`.
@@ -87,6 +94,7 @@ impl Artist {
             cut_out: options.transparent,
             light: options.light,
             environment: self.environment,
+            lens: self.lens,
             ..Look::light()
         };
         let camera = framed(&scene, options.view, size);

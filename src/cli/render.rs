@@ -17,7 +17,7 @@ pub fn render(arguments: &Render) -> Result<(), Failure> {
     let input = input::load(&arguments.project, &arguments.input)?;
     let mut session = run::opened(input.project, &arguments.project)?;
     run::choose_cloth(&mut session, &arguments.cloth)?;
-    let mut artist = Artist::new()?.lit_by(environment);
+    let mut artist = Artist::new()?.lit_by(environment).through(arguments.lens.lens());
     for (path, view) in pictures(arguments) {
         interrupt::check()?;
         let png = artist.png(&session, &PictureOptions { view, ..arguments.picture })?;

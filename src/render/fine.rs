@@ -7,6 +7,7 @@ use rayon::prelude::*;
 
 use super::alpha::straightened;
 use super::frame::occlusion_margin;
+use super::lens_blur::blur_margin;
 use super::part::Part;
 use super::pyramid::encoded;
 use super::srgb::{LINEAR, decoded};
@@ -47,6 +48,8 @@ pub struct FinePicture {
     look: Look,
     times: u32,
     parts: Vec<Part>,
+    /// Pixels round a tile that are drawn with it, for its blur; even.
+    blur_margin: u32,
     done: usize,
     target: Option<OffscreenTarget>,
     picture: RgbaImage,
@@ -67,15 +70,17 @@ impl FinePicture {
         check_size(gpu, size)?;
         let times = fineness.times.clamp(1, Fineness::MOST_TIMES);
         let whole = size * times;
+        let blur_margin = if times == 1 { 0 } else { blur_margin(&camera, &scene, look, whole) };
         let parts = if times == 1 {
             vec![Part::all(whole)]
         } else {
-            let most = (gpu.max_side() / 2).min(if gpu.software { SOFTWARE_TILE } else { u32::MAX });
+            let room = gpu.max_side().saturating_sub(2 * blur_margin);
+            let most = (room / 2).min(if gpu.software { SOFTWARE_TILE } else { u32::MAX });
             let step = 32 * times;
             let side = (fineness.tile.min(most) / step).max(1) * step;
             // A tile with its surroundings is a viewport, which is no larger than a texture.
             let margin = occlusion_margin(&camera, &scene, look, whole).max(CLIP_MARGIN);
-            Part::tiles(whole, side, margin.min((gpu.max_side() - side) / 4 * 2))
+            Part::tiles(whole, side, margin.min(room.saturating_sub(side) / 4 * 2))
         };
         let look = Look {
             pixels_per_point: look.pixels_per_point * times as f32,
@@ -83,7 +88,7 @@ impl FinePicture {
             ..*look
         };
         let picture = RgbaImage::new(size.x, size.y);
-        Ok(Self { scene, camera, look, times, parts, done: 0, target: None, picture })
+        Ok(Self { scene, camera, look, times, parts, blur_margin, done: 0, target: None, picture })
     }
 
     /// Number of tiles that are drawn, and of all of them.
@@ -99,12 +104,17 @@ impl FinePicture {
     /// Draws the next tile and waits for it; nothing where all are drawn.
     pub fn draw_next(&mut self, gpu: &Gpu, renderer: &mut Renderer) -> Result<(), RenderError> {
         let Some(&part) = self.parts.get(self.done) else { return Ok(()) };
+        let drawn = part.widened(self.blur_margin);
         let target = match self.target.take() {
-            Some(last) => last.moved_to(gpu, part)?,
-            None => OffscreenTarget::of_part(gpu, part, Quality::Finished)?,
+            Some(last) => last.moved_to(gpu, drawn)?,
+            None => OffscreenTarget::of_part(gpu, drawn, Quality::Finished)?,
         };
         renderer.draw(gpu, &self.scene, &self.camera, &self.look, &target)?;
-        let tile = target.read(gpu)?;
+        let mut tile = target.read(gpu)?;
+        if drawn != part {
+            let [at, size] = [part.at - drawn.at, part.size];
+            tile = image::imageops::crop_imm(&tile, at.x, at.y, size.x, size.y).to_image();
+        }
         self.target = Some(target);
         self.done += 1;
         if self.times == 1 {

@@ -108,7 +108,7 @@ pub(super) fn occlusion_margin(camera: &Camera, scene: &Scene, look: &Look, size
 }
 
 /// A lower bound of the depth (metres, above 0) of what a perspective picture of `size` pixels shows.
-fn nearest_depth(camera: &Camera, scene: &Scene, size: Vec2) -> f32 {
+pub(super) fn nearest_depth(camera: &Camera, scene: &Scene, size: Vec2) -> f32 {
     let view = camera.view();
     let meshes = scene.meshes.iter().flat_map(|mesh| &mesh.positions);
     let of_meshes = meshes.map(|&p| -view.transform_point3(p).z);

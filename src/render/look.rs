@@ -1,6 +1,7 @@
 //! Colours and light of a picture.
 
 use super::harmonics::Harmonics;
+use super::lens::Lens;
 use super::light::Light;
 use super::scene::Rgb;
 
@@ -17,6 +18,8 @@ pub struct Look {
     pub light: Light,
     /// Light from everywhere in place of that of `light`, as from an image.
     pub environment: Option<Harmonics>,
+    /// The lens whose depth of field blurs what is out of focus; None: all is sharp. Drafts are always sharp.
+    pub lens: Option<Lens>,
     /// Strength of the grid lines on the floor, 0..=1.
     pub grid: f32,
     /// Ambient light, 0..=1.
@@ -60,6 +63,7 @@ impl Look {
             ground: [226, 228, 232],
             light: Light::Studio,
             environment: None,
+            lens: None,
             grid: 0.5,
             ambient: 0.48,
             key: 0.84,

@@ -1,8 +1,8 @@
 //! Rendering: plain buffers in, pixels out. It has cameras, meshes and lines, and no notion of cloth or bodies.
 //!
 //! A picture takes up to six passes: shadow map; depth and normals at half size; ambient occlusion ("hollows") and its blur; then
-//! background, floor, meshes, wires and lines with light, at four samples per pixel. Finer pictures are drawn larger, tile by tile,
-//! and averaged (`fine`).
+//! background, floor, meshes, wires and lines with light, at four samples per pixel. With a lens five more blur what is out of focus
+//! (`lens_blur`). Finer pictures are drawn larger, tile by tile, and averaged (`fine`).
 
 pub mod alpha;
 pub mod bake;
@@ -16,11 +16,14 @@ mod frame;
 pub mod gpu;
 pub mod harmonics;
 pub mod legend;
+pub mod lens;
+mod lens_blur;
 mod letters;
 pub mod light;
 pub mod look;
 pub mod palette;
 mod part;
+mod pass;
 pub mod picture;
 mod picture_array;
 mod pipelines;
@@ -44,6 +47,7 @@ pub use fine::{FinePicture, Fineness};
 pub use gpu::Gpu;
 pub use harmonics::Harmonics;
 pub use legend::Legend;
+pub use lens::{Defocus, Lens};
 pub use light::Light;
 pub use look::{BODY, CLOTH_BACK, CLOTH_FRONT, Look, cloth_front, mark_colour};
 pub use palette::Palette;

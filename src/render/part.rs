@@ -46,6 +46,22 @@ impl Part {
         corners.map(tile).collect()
     }
 
+    /// The same with `more` pixels on every side, as far as the picture goes. `more` is even.
+    pub(super) fn widened(self, more: u32) -> Self {
+        let more = UVec2::splat(more);
+        let Self { whole, at, size, around_at, around_size } = self;
+        let (from, around_from) = (at.saturating_sub(more), around_at.saturating_sub(more));
+        let end = (at + size + more).min(whole);
+        let around_end = (around_at + around_size + more).min(even(whole));
+        Self {
+            whole,
+            at: from,
+            size: end - from,
+            around_at: around_from,
+            around_size: around_end - around_from,
+        }
+    }
+
     /// The texels of the surroundings (half size: 2 x 2 pixels each) that the part itself needs, with `more` on every side: upper
     /// left corner and size.
     pub(super) fn needed(&self, more: u32) -> [UVec2; 2] {
@@ -87,6 +103,14 @@ mod tests {
             }
             assert!(covered.iter().all(|&times| times == 1), "{whole}");
         }
+        let [first, ..] = Part::tiles(UVec2::new(640, 480), 64, 20)[..] else { panic!("tiles") };
+        assert_eq!(first.widened(0), first);
+        let wide = first.widened(8);
+        assert_eq!((wide.at, wide.size), (UVec2::ZERO, UVec2::splat(72)));
+        assert_eq!((wide.around_at, wide.around_size), (UVec2::ZERO, UVec2::splat(92)));
+        let last = Part::tiles(UVec2::new(65, 33), 64, 20).pop().expect("a tile").widened(8);
+        assert_eq!((last.at, last.size), (UVec2::new(56, 0), UVec2::new(9, 33)));
+        assert_eq!((last.around_at, last.around_size), (UVec2::new(36, 0), UVec2::new(30, 34)));
         let [only] = Part::tiles(UVec2::new(65, 33), 128, 0)[..] else { panic!("one tile") };
         assert_eq!(only, Part::all(UVec2::new(65, 33)));
     }

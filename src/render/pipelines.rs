@@ -2,7 +2,7 @@
 
 use super::gpu::{COLOUR, DEPTH};
 use super::shaders::{self, Shader};
-use super::target::{HOLLOWS, NORMALS, Quality};
+use super::target::{FOCUS, HOLLOWS, LIGHT, NORMALS, Quality, REACH};
 use super::{Gpu, strokes::Stroke};
 
 /// Bind group layouts and pipelines, which last as long as the device.
@@ -22,6 +22,24 @@ pub(super) struct Pipelines {
     finished: Pictured,
     /// Pipelines for drafts; made when the first draft is drawn.
     draft: Option<Pictured>,
+    /// Pipelines for depth of field; made when the first picture has it.
+    lens: Option<LensPipelines>,
+}
+
+/// The layouts of bind group 1, and the pipelines, of the passes of depth of field.
+#[derive(Debug)]
+pub(super) struct LensPipelines {
+    /// Uniform buffer and depth.
+    pub(super) depth_layout: wgpu::BindGroupLayout,
+    /// Uniform buffer and one texture.
+    pub(super) one_layout: wgpu::BindGroupLayout,
+    /// Uniform buffer and all that the blur reads: picture, light, focus, reach.
+    pub(super) all_layout: wgpu::BindGroupLayout,
+    pub(super) focus: wgpu::RenderPipeline,
+    pub(super) light: wgpu::RenderPipeline,
+    pub(super) spread: wgpu::RenderPipeline,
+    pub(super) reach: wgpu::RenderPipeline,
+    pub(super) blur: wgpu::RenderPipeline,
 }
 
 /// The pipelines that draw the picture itself, after the passes that prepare its light.
@@ -90,6 +108,7 @@ impl Pipelines {
             }),
             finished: Pictured::finished(&make, gpu.samples, &light_layout, &material_layout),
             draft: None,
+            lens: None,
             picture_sampler: gpu.device.create_sampler(&wgpu::SamplerDescriptor {
                 label: Some("pictures"),
                 address_mode_u: wgpu::AddressMode::Repeat,
@@ -115,11 +134,46 @@ impl Pipelines {
         }
     }
 
+    /// The pipelines for depth of field, made now unless they are there.
+    pub(super) fn lens(&mut self, gpu: &Gpu) -> &LensPipelines {
+        let make = Maker { gpu, frame: &self.frame_layout };
+        self.lens.get_or_insert_with(|| LensPipelines::new(&make, gpu.samples))
+    }
+
     /// The pipelines for a quality. For drafts [`Pipelines::prepare_drafts`] must have been called.
     pub(super) fn pictured(&self, quality: Quality) -> &Pictured {
         match quality {
             Quality::Finished => &self.finished,
             Quality::Draft => self.draft.as_ref().unwrap_or(&self.finished),
+        }
+    }
+}
+
+impl LensPipelines {
+    fn new(make: &Maker<'_>, samples: u32) -> Self {
+        let depth = if samples > 1 { depth_samples() } else { depth_texture() };
+        let depth_layout = layout(make.gpu, "lens depth", &[uniform(), depth]);
+        let one_layout = layout(make.gpu, "lens", &[uniform(), colour_texture()]);
+        let all_layout = layout(make.gpu, "lens blur", &[&[uniform()][..], &[colour_texture(); 4]].concat());
+        let focus = make.module(&shaders::focus(samples > 1));
+        let reach = make.module(&shaders::reach());
+        let blur = make.module(&shaders::lens_blur());
+        let pipeline = |module, inputs, fragment, format: wgpu::TextureFormat| {
+            make.pipeline(Pass {
+                extra: &[Some(inputs)],
+                fragment: Some((fragment, Some(format.into()))),
+                ..Pass::new(module, "lens_vertex")
+            })
+        };
+        Self {
+            focus: pipeline(&focus, &depth_layout, "focus_fragment", FOCUS),
+            light: pipeline(&blur, &one_layout, "light_fragment", LIGHT),
+            spread: pipeline(&reach, &one_layout, "spread_fragment", REACH),
+            reach: pipeline(&reach, &one_layout, "reach_fragment", REACH),
+            blur: pipeline(&blur, &all_layout, "lens_blur_fragment", COLOUR),
+            depth_layout,
+            one_layout,
+            all_layout,
         }
     }
 }
@@ -400,6 +454,15 @@ fn sampled(sample_type: wgpu::TextureSampleType) -> wgpu::BindingType {
 
 fn depth_texture() -> wgpu::BindingType {
     sampled(wgpu::TextureSampleType::Depth)
+}
+
+/// Depth with several samples for each pixel.
+fn depth_samples() -> wgpu::BindingType {
+    wgpu::BindingType::Texture {
+        sample_type: wgpu::TextureSampleType::Depth,
+        view_dimension: wgpu::TextureViewDimension::D2,
+        multisampled: true,
+    }
 }
 
 fn colour_texture() -> wgpu::BindingType {

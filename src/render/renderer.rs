@@ -5,19 +5,22 @@ use glam::UVec2;
 use super::buffers::{DeviceMesh, Wire, bind, upload};
 use super::frame::Frame;
 use super::gpu::DEPTH;
+use super::lens_blur::LensBlur;
 use super::part::BLUR_REACH;
+use super::pass::begin;
 use super::pipelines::{Pictured, Pipelines};
 use super::strokes::strokes;
 use super::target::{HalfSize, texture};
 use super::{Camera, Gpu, Look, OffscreenTarget, Quality, RenderError, Scene};
 
-/// Pipelines, shadow map and the meshes of the last picture; one per device.
+/// Pipelines, shadow map, and the meshes and the textures for depth of field of the last picture; one per device.
 #[derive(Debug)]
 pub struct Renderer {
     pipelines: Pipelines,
     shadow_map: wgpu::TextureView,
     shadow_sampler: wgpu::Sampler,
     meshes: Vec<DeviceMesh>,
+    lens: Option<LensBlur>,
 }
 
 /// The bind groups and buffers of one picture.
@@ -46,6 +49,7 @@ impl Renderer {
                 ..Default::default()
             }),
             meshes: Vec::new(),
+            lens: None,
         }
     }
 
@@ -74,7 +78,14 @@ impl Renderer {
         if target.quality == Quality::Draft {
             self.pipelines.prepare_drafts(gpu);
         }
+        let lens = look.lens.filter(|_| target.quality == Quality::Finished);
+        let defocus = lens.and_then(|lens| lens.defocus(camera, target.part.whole));
+        self.lens = defocus.map(|_| LensBlur::for_target(self.lens.take(), gpu, target));
         self.draw_picture(&mut encoder, &bound, look, wire, target);
+        if let Some((defocus, lens)) = defocus.zip(self.lens.as_ref()) {
+            let with = self.pipelines.lens(gpu);
+            lens.blur(gpu, &mut encoder, with, &bound.frame, (defocus, bound.ground), target);
+        }
         gpu.queue.submit([encoder.finish()]);
         match pollster::block_on(scope.pop()) {
             Some(e) => Err(RenderError::Device(e.to_string())),
@@ -195,12 +206,16 @@ impl Renderer {
         wire: Option<Wire>,
         target: &OffscreenTarget,
     ) {
+        let (picture, depth) = match &self.lens {
+            Some(lens) => (&lens.sharp, &lens.depth),
+            None => (&target.picture_view, &target.depth),
+        };
         let colour = match &target.samples {
-            Some(samples) => (samples, Some(&target.picture_view)),
-            None => (&target.picture_view, None),
+            Some(samples) => (samples, Some(picture)),
+            None => (picture, None),
         };
         let with = self.pipelines.pictured(target.quality);
-        let mut pass = begin(encoder, "picture", Some(colour), Some((&target.depth, 0.0)));
+        let mut pass = begin(encoder, "picture", Some(colour), Some((depth, 0.0)));
         pass.set_bind_group(0, &bound.frame, &[]);
         // Shaders place things in the part with its surroundings, so that triangles are not clipped at the border of a tile: a
         // clipped edge is rounded a little otherwise than the whole.
@@ -240,34 +255,4 @@ impl Renderer {
             pass.draw(0..6, 0..*count);
         }
     }
-}
-
-/// Begins a pass that clears its attachments. With a resolve target the multisampled texture is discarded after the pass.
-fn begin<'e>(
-    encoder: &'e mut wgpu::CommandEncoder,
-    label: &str,
-    colour: Option<(&wgpu::TextureView, Option<&wgpu::TextureView>)>,
-    depth: Option<(&wgpu::TextureView, f32)>,
-) -> wgpu::RenderPass<'e> {
-    let colours = colour.map(|(view, resolve_target)| {
-        [Some(wgpu::RenderPassColorAttachment {
-            view,
-            depth_slice: None,
-            resolve_target,
-            ops: wgpu::Operations {
-                load: wgpu::LoadOp::Clear(wgpu::Color::TRANSPARENT),
-                store: if resolve_target.is_some() { wgpu::StoreOp::Discard } else { wgpu::StoreOp::Store },
-            },
-        })]
-    });
-    encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
-        label: Some(label),
-        color_attachments: colours.as_ref().map_or(&[], |c| c.as_slice()),
-        depth_stencil_attachment: depth.map(|(view, far)| wgpu::RenderPassDepthStencilAttachment {
-            view,
-            depth_ops: Some(wgpu::Operations { load: wgpu::LoadOp::Clear(far), store: wgpu::StoreOp::Store }),
-            stencil_ops: None,
-        }),
-        ..Default::default()
-    })
 }

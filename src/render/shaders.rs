@@ -14,6 +14,9 @@ const LIGHT: &str = include_str!("../../shaders/light.wgsl");
 const MATERIAL: &str = include_str!("../../shaders/material.wgsl");
 const TEXTILE: &str = include_str!("../../shaders/textile.wgsl");
 const FLOOR: &str = include_str!("../../shaders/floor.wgsl");
+const LENS: &str = include_str!("../../shaders/lens.wgsl");
+const LENS_DEPTH: &str = include_str!("../../shaders/lens_depth.wgsl");
+const LENS_DEPTHS: &str = include_str!("../../shaders/lens_depths.wgsl");
 
 fn shader(name: &'static str, headers: &[&str], own: &str) -> Shader {
     Shader { name, text: format!("{}\n{own}", headers.join("\n")) }
@@ -59,12 +62,41 @@ pub(super) fn blur() -> Shader {
     shader("blur.wgsl", &[FRAME], include_str!("../../shaders/blur.wgsl"))
 }
 
+/// Depth and circles of confusion, from depths with several samples for each pixel or with one.
+pub(super) fn focus(is_multisampled: bool) -> Shader {
+    let depths = if is_multisampled { LENS_DEPTHS } else { LENS_DEPTH };
+    shader("focus.wgsl", &[FRAME, LENS, depths], include_str!("../../shaders/focus.wgsl"))
+}
+
+pub(super) fn reach() -> Shader {
+    shader("reach.wgsl", &[FRAME, LENS], include_str!("../../shaders/reach.wgsl"))
+}
+
+pub(super) fn lens_blur() -> Shader {
+    shader("lens_blur.wgsl", &[FRAME, LENS], include_str!("../../shaders/lens_blur.wgsl"))
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
 
-    fn all() -> [Shader; 10] {
-        [background(), ground(), mesh(), line(), wire(), depth(), hollows(), blur(), draft(), draft_ground()]
+    fn all() -> [Shader; 14] {
+        [
+            background(),
+            ground(),
+            mesh(),
+            line(),
+            wire(),
+            depth(),
+            hollows(),
+            blur(),
+            draft(),
+            draft_ground(),
+            focus(true),
+            focus(false),
+            reach(),
+            lens_blur(),
+        ]
     }
 
     #[test]
@@ -86,7 +118,16 @@ mod tests {
     #[test]
     fn every_file_is_used() {
         let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/shaders");
-        let headers = ["frame.wgsl", "light.wgsl", "material.wgsl", "textile.wgsl", "floor.wgsl"];
+        let headers = [
+            "frame.wgsl",
+            "light.wgsl",
+            "material.wgsl",
+            "textile.wgsl",
+            "floor.wgsl",
+            "lens.wgsl",
+            "lens_depth.wgsl",
+            "lens_depths.wgsl",
+        ];
         let used = headers.into_iter().chain(all().map(|s| s.name));
         let used: std::collections::BTreeSet<String> = used.map(str::to_owned).collect();
         let found: std::collections::BTreeSet<String> = std::fs::read_dir(folder)

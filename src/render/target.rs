@@ -48,6 +48,12 @@ pub(super) struct HalfSize {
 pub(super) const HOLLOWS: wgpu::TextureFormat = wgpu::TextureFormat::Rg16Float;
 /// Format of the view-space normals.
 pub(super) const NORMALS: wgpu::TextureFormat = wgpu::TextureFormat::Rgba8Unorm;
+/// Format of depth (metres) and radius of the circle of confusion (pixels).
+pub(super) const FOCUS: wgpu::TextureFormat = wgpu::TextureFormat::Rg32Float;
+/// Format of linear light.
+pub(super) const LIGHT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba16Float;
+/// Format of the largest radius (pixels) in a block.
+pub(super) const REACH: wgpu::TextureFormat = wgpu::TextureFormat::R32Float;
 
 impl Quality {
     /// Samples per pixel.

@@ -8,6 +8,7 @@ mod bodies;
 #[path = "../common/mod.rs"]
 mod common;
 mod compare;
+mod depth_of_field;
 mod dress;
 mod environment;
 mod faults;

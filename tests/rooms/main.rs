@@ -8,6 +8,7 @@ mod bones;
 mod common;
 mod converged;
 mod corpus;
+mod depth_of_field;
 mod drag;
 mod drape;
 mod editing;

@@ -13,7 +13,7 @@ use toile::ui::scenery::fabric_looks::textile;
 
 const SIZE: UVec2 = UVec2::new(320, 240);
 
-fn studio() -> Option<Studio> {
+pub(crate) fn studio() -> Option<Studio> {
     match Studio::new() {
         Ok(studio) => Some(studio),
         Err(RenderError::NoAdapter(why)) => {
@@ -343,7 +343,7 @@ fn evening_is_redder_and_daylight_has_a_blue_sky() {
 }
 
 /// Everything that a picture can hold: cloth with a weave, cloth that lets light through, a body, lines, a number, a floor.
-fn full_scene() -> Scene {
+pub(crate) fn full_scene() -> Scene {
     let woven =
         FabricLook { weave: Weave::Twill, pitch_m: 0.01, relief: 0.5, slubs: 0.2, ..FabricLook::default() };
     let net = Fabric::preset("chiffon").expect("a preset").look;
@@ -383,7 +383,7 @@ fn full_scene() -> Scene {
 }
 
 /// A picture of `scene`, and the number of its tiles.
-fn fine(
+pub(crate) fn fine(
     studio: &mut Studio,
     scene: &Scene,
     camera: Camera,

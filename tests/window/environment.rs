@@ -43,7 +43,7 @@ fn drop_file(window: &mut Window, path: &Path) {
 }
 
 /// Chooses an entry of View › Theme.
-fn from_theme(window: &mut Window, entry: &str) {
+pub(super) fn from_theme(window: &mut Window, entry: &str) {
     act(window, "View");
     window.get_by_label_contains("Theme").scroll_to_me();
     window.run_steps(30);
@@ -86,11 +86,11 @@ fn rotate(window: &mut Window) {
     window.run_steps(4);
 }
 
-fn keep_preferences(window: &mut Window, path: &Path) {
+pub(super) fn keep_preferences(window: &mut Window, path: &Path) {
     edit(window, |app, ctx| app.keep_preferences(ctx, path.to_owned()));
 }
 
-fn kept(path: &Path) -> serde_json::Value {
+pub(super) fn kept(path: &Path) -> serde_json::Value {
     serde_json::from_str(&std::fs::read_to_string(path).expect("kept")).expect("JSON")
 }
 

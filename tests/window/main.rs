@@ -21,6 +21,7 @@ mod animations;
 #[path = "../common/mod.rs"]
 mod common;
 mod demos;
+mod depth_of_field;
 mod draping;
 mod dressing;
 mod environment;

@@ -17,7 +17,7 @@ use crate::body::{NamedPose, Unit, UpAxis};
 pub use crate::cli::arguments::bench::{Bench, BenchKind, CorpusOptions, TrustOptions};
 pub use crate::cli::arguments::install::{Completions, Man};
 pub use crate::cli::arguments::marker::Marker;
-pub use crate::cli::arguments::picture::PictureOptions;
+pub use crate::cli::arguments::picture::{LensOptions, PictureOptions};
 use crate::cli::arguments::picture::{rotation, size, view};
 pub use crate::cli::arguments::report::{Merge, Report, ReportTask};
 pub use crate::cli::arguments::techpack::TechPack;
@@ -540,6 +540,8 @@ pub struct Render {
     /// is to the left of the body
     #[arg(long, value_name = "DEGREES", requires = "environment", value_parser = rotation)]
     pub environment_rotation: Option<f32>,
+    #[command(flatten)]
+    pub lens: LensOptions,
     /// The picture (PNG)
     #[arg(short, long, value_name = "PNG")]
     pub output: PathBuf,

@@ -1,9 +1,14 @@
 //! Options of a picture.
 
+use std::ops::RangeInclusive;
+
 use clap::Args;
 
-use crate::render::{Fineness, Light, View};
+use crate::render::{Fineness, Lens, Light, View};
 use crate::ui::scenery::body_look::BodyLook;
+
+/// Distances at which a lens may be focused, metres.
+const FOCUS: RangeInclusive<f32> = 0.01..=1000.0;
 
 /// Options of a picture.
 #[derive(Clone, Copy, Debug, Args)]
@@ -42,6 +47,39 @@ impl PictureOptions {
     }
 }
 
+/// Options of depth of field.
+#[derive(Clone, Copy, Debug, Args)]
+pub struct LensOptions {
+    /// Depth of field: blurs what is out of focus as a lens of this f-number does, 1.4 to 22, on a sensor whose longer side is
+    /// 36 mm; the smaller, the stronger
+    #[arg(long, value_name = "NUMBER", value_parser = f_number)]
+    pub f_number: Option<f32>,
+    /// Distance from the eye to the plane in focus, metres; by default the middle of what is drawn is in focus
+    #[arg(long, value_name = "METRES", requires = "f_number", value_parser = focus)]
+    pub focus: Option<f32>,
+}
+
+impl LensOptions {
+    /// The lens; None where everything is sharp.
+    pub fn lens(self) -> Option<Lens> {
+        self.f_number.map(|f_number| Lens { f_number, focus: self.focus })
+    }
+}
+
+/// Reads an f-number.
+fn f_number(text: &str) -> Result<f32, String> {
+    let number = text.parse::<f32>().ok().filter(|number| Lens::F_NUMBERS.contains(number));
+    let (least, most) = Lens::F_NUMBERS.into_inner();
+    number.ok_or_else(|| format!("{text:?} is not an f-number from {least} to {most}"))
+}
+
+/// Reads the distance to the plane in focus, metres.
+fn focus(text: &str) -> Result<f32, String> {
+    let distance = text.parse::<f32>().ok().filter(|distance| FOCUS.contains(distance));
+    let (least, most) = FOCUS.into_inner();
+    distance.ok_or_else(|| format!("{text:?} is not a distance in metres from {least} to {most}"))
+}
+
 fn times() -> clap::builder::RangedI64ValueParser<u32> {
     clap::value_parser!(u32).range(1..=i64::from(Fineness::MOST_TIMES))
 }
@@ -76,6 +114,12 @@ mod tests {
         assert!(size("0x10").is_err() && size("99999x9").is_err() && size("12").is_err());
         assert_eq!([rotation("0"), rotation("22.5"), rotation("360")], [Ok(0.0), Ok(22.5), Ok(360.0)]);
         assert!(["-1", "361", "NaN", "", "90°"].into_iter().all(|text| rotation(text).is_err()));
+        assert_eq!([f_number("1.4"), f_number("8"), f_number("22")], [Ok(1.4), Ok(8.0), Ok(22.0)]);
+        assert!(
+            ["0", "1.3", "22.1", "-4", "NaN", "inf", "f/4", ""].into_iter().all(|t| f_number(t).is_err())
+        );
+        assert_eq!([focus("0.01"), focus("3.5")], [Ok(0.01), Ok(3.5)]);
+        assert!(["0", "-1", "1001", "NaN", "inf", "3m", ""].into_iter().all(|text| focus(text).is_err()));
         assert!(view("front").is_ok() && view("-30,10").is_ok() && view("inside").is_err());
     }
 }

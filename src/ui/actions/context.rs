@@ -120,6 +120,8 @@ pub struct FrameContext {
     pub sight: Sight,
     /// Whether the bar that rotates the environment map is shown.
     pub rotating: bool,
+    /// Whether the bar of the aperture is shown.
+    pub sets_aperture: bool,
     /// What the drawer below the panes shows; None when it is closed.
     pub drawer: Option<Drawer>,
     /// Map that the cloth is coloured by.
@@ -189,6 +191,7 @@ impl FrameContext {
             Need::EnvironmentMap => {
                 (self.sight.environment.is_some(), "No environment map is chosen: choose one first")
             }
+            Need::DepthOfField => (self.sight.lens.is_some(), "Depth of field is off: switch it on first"),
             Need::Selection => (self.selected.is_some() || picked.deletable, "Nothing is selected"),
             Need::PickedPiece => (picked.pieces > 0, "No piece is selected"),
             Need::PickedPieceOrPin => (picked.pieces + picked.pins > 0, "No piece or pin is selected"),
@@ -259,6 +262,8 @@ impl FrameContext {
             Action::Light(light) => self.sight.light == light && self.sight.environment.is_none(),
             Action::EnvironmentMap => self.sight.environment.is_some(),
             Action::RotateEnvironment => self.rotating,
+            Action::ToggleDepthOfField => self.sight.lens.is_some(),
+            Action::SetAperture => self.sets_aperture,
             Action::BodyLook(look) => self.sight.body_look == look,
             Action::ToggleHistory => self.drawer == Some(Drawer::History),
             Action::ToggleLog => self.drawer == Some(Drawer::Log),

@@ -182,6 +182,10 @@ pub enum Action {
     EnvironmentMap,
     /// Show or hide the bar that rotates the environment map.
     RotateEnvironment,
+    /// Blur what is out of focus, or nothing.
+    ToggleDepthOfField,
+    /// Show or hide the bar of the aperture.
+    SetAperture,
     BodyLook(BodyLook),
     TogglePanel,
     Show(Panes),

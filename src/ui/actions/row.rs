@@ -88,6 +88,8 @@ pub enum Need {
     Comparison,
     /// An environment map lights the scene.
     EnvironmentMap,
+    /// What is out of focus is blurred.
+    DepthOfField,
     /// Something that can be deleted is selected.
     Selection,
     /// A piece is selected.

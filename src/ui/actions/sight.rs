@@ -1,6 +1,6 @@
 //! Display options of body and cloth.
 
-use crate::render::{Harmonics, Light, Look};
+use crate::render::{Harmonics, Lens, Light, Look};
 use crate::ui::scenery::body_look::BodyLook;
 
 /// Display options of body and cloth.
@@ -18,6 +18,8 @@ pub struct Sight {
     pub light: Light,
     /// Light from all sides out of an environment map, turned as chosen, in place of that of `light`.
     pub environment: Option<Harmonics>,
+    /// The lens that blurs what is out of focus.
+    pub lens: Option<Lens>,
     /// How the body is shown.
     pub body_look: BodyLook,
 }
@@ -31,6 +33,7 @@ impl Default for Sight {
             pairs: true,
             light: Light::Studio,
             environment: None,
+            lens: None,
             body_look: BodyLook::Skin,
         }
     }
@@ -39,7 +42,7 @@ impl Default for Sight {
 impl Sight {
     /// `look` with the options of these that the renderer knows.
     pub fn on(self, look: Look) -> Look {
-        let Self { wire, sheer, xray, light, environment, pairs: _, body_look: _ } = self;
-        Look { wire, sheer, xray, light, environment, ..look }
+        let Self { wire, sheer, xray, light, environment, lens, pairs: _, body_look: _ } = self;
+        Look { wire, sheer, xray, light, environment, lens, ..look }
     }
 }

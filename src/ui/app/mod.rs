@@ -4,6 +4,7 @@ pub(in crate::ui) mod act;
 pub(in crate::ui) mod all_sizes;
 pub(in crate::ui) mod arrange;
 pub(in crate::ui) mod demo;
+pub(in crate::ui) mod depth_of_field;
 pub(in crate::ui) mod drawer;
 pub(in crate::ui) mod dressing;
 pub(in crate::ui) mod environment;

@@ -78,6 +78,8 @@ pub struct Shell {
     pub sight: Sight,
     /// The environment map, and the bar that rotates it.
     pub environment: EnvironmentMap,
+    /// Whether the bar of the aperture is shown.
+    pub sets_aperture: bool,
     /// First widgets of the toolbar and of the side panel, which get the keyboard focus.
     pub first_tool: Option<egui::Id>,
     pub first_of_panel: Option<egui::Id>,
@@ -140,7 +142,10 @@ impl App {
             Action::Light(light) => self.choose_light(ctx, light),
             Action::RotateEnvironment => {
                 self.shell.environment.is_rotated = !self.shell.environment.is_rotated;
+                self.shell.sets_aperture &= !self.shell.environment.is_rotated;
             }
+            Action::ToggleDepthOfField => self.toggle_depth_of_field(ctx),
+            Action::SetAperture => self.show_aperture(!self.shell.sets_aperture),
             Action::BodyLook(look) => self.shell.sight.body_look = look,
             Action::TogglePairs => self.shell.sight.pairs = !self.shell.sight.pairs,
             Action::ToggleHistory => self.shell.drawer = toggled(Drawer::History),
@@ -190,6 +195,7 @@ impl App {
         self.all_sizes_ui(ctx, palette);
         self.marker_ui(ctx, palette);
         self.rotation_ui(ctx, asks);
+        self.aperture_ui(ctx, asks);
         self.go_on_turning(ctx, palette, status::HEIGHT);
         self.go_on_reporting(ctx, palette, status::HEIGHT);
         drop_overlay::ui(ctx, palette, [self.pattern_pane.area, self.scene_pane.area]);
@@ -221,6 +227,7 @@ impl App {
         self.speak();
         self.use_card();
         self.light_up();
+        self.focus_lens();
         theme::choose(ctx, self.preferences.theme);
         ctx.set_zoom_factor(self.preferences.scale.factor());
     }

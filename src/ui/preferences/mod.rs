@@ -1,5 +1,6 @@
 //! The user's preferences, kept between runs.
 
+pub mod depth_of_field;
 pub mod lighting;
 pub(in crate::ui) mod page;
 pub(in crate::ui) mod units;
@@ -21,6 +22,7 @@ use crate::ui::language::choice::Language;
 use crate::ui::language::say;
 use crate::ui::look::scheme::Theme;
 use crate::ui::pointer::mouse::Mouse;
+use crate::ui::preferences::depth_of_field::DepthOfField;
 use crate::ui::preferences::lighting::Lighting;
 use crate::ui::preferences::units::LengthUnit;
 
@@ -43,6 +45,9 @@ pub struct Preferences {
     /// Light of the body pane and of its pictures.
     #[serde(deserialize_with = "or_default")]
     pub lighting: Lighting,
+    /// Depth of field of the body pane and of its pictures.
+    #[serde(deserialize_with = "or_default")]
+    pub depth_of_field: DepthOfField,
     /// Unit in which lengths are shown.
     #[serde(deserialize_with = "or_default")]
     pub unit: LengthUnit,
@@ -248,6 +253,7 @@ pub fn usual_path() -> Option<PathBuf> {
 mod tests {
     use super::*;
     use crate::render::Light;
+    use crate::ui::preferences::depth_of_field::FNumber;
     use crate::ui::preferences::lighting::Rotation;
 
     #[test]
@@ -265,6 +271,7 @@ mod tests {
                 environment: Some("/home/me/garden.hdr".into()),
                 rotation: Rotation(90),
             },
+            depth_of_field: DepthOfField { is_on: true, f_number: FNumber(5.6) },
             unit: LengthUnit::Inch,
             paper: Paper::One,
             scale: Scale(150),

@@ -276,6 +276,8 @@ fn view_ui(ui: &mut egui::Ui, now: &FrameContext, asks: &mut Asks) {
         ui.separator();
         items(ui, now, asks, &Light::ALL.map(Action::Light));
         items(ui, now, asks, &[Action::EnvironmentMap, Action::RotateEnvironment]);
+        ui.separator();
+        items(ui, now, asks, &[Action::ToggleDepthOfField, Action::SetAperture]);
     });
     ui.menu_button(tr("Mouse"), |ui| items(ui, now, asks, &Mouse::ALL.map(Action::Mouse)));
 }

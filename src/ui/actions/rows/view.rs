@@ -185,4 +185,19 @@ pub const ROWS: &[Row] = &[
     )
     .needs(&[Need::EnvironmentMap])
     .in_demos(),
+    row(
+        "View › Theme",
+        Action::ToggleDepthOfField,
+        "Depth of field",
+        "Blur what is nearer or farther than the point the view turns about, as a lens does",
+    )
+    .in_demos(),
+    row(
+        "View › Theme",
+        Action::SetAperture,
+        "Set aperture",
+        "Choose the f-number: the smaller it is, the stronger the blur",
+    )
+    .needs(&[Need::DepthOfField])
+    .in_demos(),
 ];
