@@ -19,8 +19,8 @@ use super::{Camera, Gpu, Look, OffscreenTarget, Quality, RenderError, Renderer, 
 pub struct Fineness {
     /// Drawn pixels along each side of a pixel, 1..=[`MOST_TIMES`](Self::MOST_TIMES).
     pub times: u32,
-    /// Longest side of a tile, drawn pixels; rounded down to a multiple of `32 * times`, at least that. Not used where `times` is
-    /// 1: the picture is then drawn in one piece.
+    /// Longest side of a tile, drawn pixels; rounded down to a multiple of `32 * times`, at least that. Where `times` is 1 the
+    /// picture is drawn in one piece, unless a processor has to blur it.
     pub tile: u32,
 }
 
@@ -70,8 +70,10 @@ impl FinePicture {
         check_size(gpu, size)?;
         let times = fineness.times.clamp(1, Fineness::MOST_TIMES);
         let whole = size * times;
-        let blur_margin = if times == 1 { 0 } else { blur_margin(&camera, &scene, look, whole) };
-        let parts = if times == 1 {
+        // The blur of a large picture in one piece would keep a processor busy for too long.
+        let is_tiled = times > 1 || gpu.software;
+        let blur_margin = if is_tiled { blur_margin(&camera, &scene, look, whole) } else { 0 };
+        let parts = if times == 1 && blur_margin == 0 {
             vec![Part::all(whole)]
         } else {
             let room = gpu.max_side().saturating_sub(2 * blur_margin);
@@ -117,12 +119,13 @@ impl FinePicture {
         }
         self.target = Some(target);
         self.done += 1;
-        if self.times == 1 {
-            self.picture = if self.look.cut_out { straightened(tile) } else { tile };
-        } else {
-            let at = (part.at / self.times).as_i64vec2();
-            image::imageops::replace(&mut self.picture, &averaged(&tile, self.times), at.x, at.y);
-        }
+        let part_of_picture = match self.times {
+            1 if self.look.cut_out => straightened(tile),
+            1 => tile,
+            times => averaged(&tile, times),
+        };
+        let at = (part.at / self.times).as_i64vec2();
+        image::imageops::replace(&mut self.picture, &part_of_picture, at.x, at.y);
         Ok(())
     }
 
