@@ -4,6 +4,7 @@ use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use crate::geometry::ids::{PieceId, SeamId};
+use crate::geometry::words::{Words, words};
 use crate::pattern::{
     Edge, EdgeRef, EdgeSeam, Pattern, Piece, Problem, ProblemKind, Seam, Stretch, curve, naming,
 };
@@ -67,10 +68,10 @@ impl CutPattern {
                 }
                 Err(side) => problems.push(Problem {
                     kind: ProblemKind::SeamToNothing,
-                    place: id.to_string(),
-                    words: format!(
-                        "it sews a stretch of {}, which is not there; delete or redraw the seam",
-                        naming::place(pattern, side.first_edge())
+                    place: id.into(),
+                    words: words!(
+                        "it sews a stretch of {place}, which is not there; delete or redraw the seam",
+                        place = naming::place(pattern, side.first_edge())
                     ),
                 }),
             }
@@ -102,11 +103,13 @@ impl CutPattern {
     }
 
     /// Describes an edge by its number in the pattern: "front (piece 1), edge 3".
-    pub fn place(&self, edge: EdgeRef) -> String {
+    pub fn place(&self, edge: EdgeRef) -> Words {
         let edge = self.origin(edge);
         match self.pieces.get(&edge.piece) {
-            Some(piece) => format!("{} ({}), edge {}", piece.name, edge.piece, edge.edge),
-            None => format!("{}, edge {}", edge.piece, edge.edge),
+            Some(piece) => {
+                words!("{name} ({piece}), edge {n}", name = piece.name, piece = edge.piece, n = edge.edge)
+            }
+            None => words!("{piece}, edge {n}", piece = edge.piece, n = edge.edge),
         }
     }
 
@@ -165,10 +168,10 @@ impl CutPattern {
         let (Some(one), Some(mut other)) = (side(0), side(1)) else {
             problems.push(Problem {
                 kind: ProblemKind::EdgeSewnTwice,
-                place: id.to_string(),
-                words: format!(
-                    "part of {} is sewn a second time; the seam was left out",
-                    naming::place(pattern, seam.sides[0].first_edge())
+                place: id.into(),
+                words: words!(
+                    "part of {place} is sewn a second time; the seam was left out",
+                    place = naming::place(pattern, seam.sides[0].first_edge())
                 ),
             });
             return;

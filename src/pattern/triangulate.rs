@@ -8,6 +8,7 @@ use spade::{AngleLimit, ConstrainedDelaunayTriangulation, Point2, RefinementPara
 
 use crate::geometry::ids::PieceId;
 use crate::geometry::polygon::{contains, distance_to_segment, first_crossing, is_inside, signed_area};
+use crate::geometry::words::{Words, words};
 use crate::pattern::chains::{Link, links};
 use crate::pattern::sampling::Sampling;
 use crate::pattern::{CutPattern, Edge, EdgeRef, EdgeShape, InternalLine, Piece, Problem, ProblemKind};
@@ -126,21 +127,21 @@ fn piece_mesh(
     intervals: &[usize],
     edge_length: f64,
 ) -> Result<PieceMesh, Problem> {
-    let fault = |kind, words: &str| Problem {
-        kind,
-        place: format!("{} ({id})", piece.name),
-        words: words.to_owned(),
-    };
+    let fault =
+        |kind, words: Words| Problem { kind, place: words!("{name} ({id})", name = piece.name, id), words };
     if piece.outline.len() < 2 {
-        return Err(fault(ProblemKind::ZeroLength, "its outline has fewer than two edges"));
+        return Err(fault(ProblemKind::ZeroLength, words!("its outline has fewer than two edges")));
     }
     if !is_finite(piece) {
-        return Err(fault(ProblemKind::NotTriangulated, "its outline has coordinates that are not numbers"));
+        return Err(fault(
+            ProblemKind::NotTriangulated,
+            words!("its outline has coordinates that are not numbers"),
+        ));
     }
     let too_fine = || {
         fault(
             ProblemKind::NotTriangulated,
-            "it would need more than two million triangles; raise the edge length",
+            words!("it would need more than two million triangles; raise the edge length"),
         )
     };
     if intervals.iter().fold(0, |sum: usize, n| sum.saturating_add(*n)) > MOST_OUTLINE_POINTS {
@@ -150,34 +151,39 @@ fn piece_mesh(
     let (outline, edge_points) = (lines.of_loop(0), &lines.edge_points);
     let extent = outline.iter().fold(0.0f64, |m, p| m.max((*p - outline[0]).length()));
     if is_straight(outline, extent) {
-        return Err(fault(ProblemKind::ZeroLength, "it has no area"));
+        return Err(fault(ProblemKind::ZeroLength, words!("it has no area")));
     }
     if let Some((i, j)) = lines.crossing() {
         let (a, b) = (edge_of(edge_points, i), edge_of(edge_points, j));
         return Err(Problem {
             kind: ProblemKind::SelfCrossing,
             place: pattern.place(EdgeRef { piece: id, edge: a }),
-            words: format!("the outline crosses itself: edge {a} meets edge {b}; move their points apart"),
+            words: words!(
+                "the outline crosses itself: edge {a} meets edge {b}; move their points apart",
+                a,
+                b
+            ),
         });
     }
     if let Some(fault) = lines.misplaced_hole() {
         return Err(Problem {
             kind: ProblemKind::NotTriangulated,
-            place: format!("{} ({id})", piece.name),
+            place: words!("{name} ({id})", name = piece.name, id),
             words: fault,
         });
     }
     let area = signed_area(outline);
     if area.abs() < 1e-9 || area.abs() < extent * extent * 1e-6 {
-        return Err(fault(ProblemKind::ZeroLength, "it has no area"));
+        return Err(fault(ProblemKind::ZeroLength, words!("it has no area")));
     }
     if area.abs() / (edge_length * edge_length * 0.433) > MOST_TRIANGLES {
         return Err(too_fine());
     }
     let within: Vec<[DVec2; 2]> = (0..lines.points.len()).map(|i| lines.segment(i).into()).collect();
     let links = links(piece, edge_length, &within, |p| is_inside(within.iter().copied(), p));
-    let (points, mut triangles, line_edges) = refined(&lines, &links, edge_length)
-        .ok_or_else(|| fault(ProblemKind::NotTriangulated, "its outline could not be triangulated"))?;
+    let (points, mut triangles, line_edges) = refined(&lines, &links, edge_length).ok_or_else(|| {
+        fault(ProblemKind::NotTriangulated, words!("its outline could not be triangulated"))
+    })?;
     let front_is_far = area < 0.0;
     if front_is_far {
         for t in &mut triangles {
@@ -257,16 +263,16 @@ impl Lines {
     }
 
     /// Describes a hole that lies outside the outline or inside another hole; assumes that the lines do not cross.
-    fn misplaced_hole(&self) -> Option<String> {
+    fn misplaced_hole(&self) -> Option<Words> {
         let inside = |k: usize, p: DVec2| contains(self.of_loop(k), p);
         let holes = 1..self.starts.len() - 1;
         holes.clone().find_map(|k| {
             let p = *self.of_loop(k).first()?;
             if !inside(0, p) {
-                return Some(format!("hole {k} lies outside its outline; move it back"));
+                return Some(words!("hole {k} lies outside its outline; move it back", k));
             }
             let other = holes.clone().find(|&other| other != k && inside(other, p))?;
-            Some(format!("hole {k} lies inside hole {other}; delete it"))
+            Some(words!("hole {k} lies inside hole {other}; delete it", k, other))
         })
     }
 }

@@ -2,6 +2,8 @@
 
 use serde::{Deserialize, Serialize};
 
+use crate::geometry::words::{Words, words};
+
 /// Range of the strength of a fold line, N: moment per metre of the line and per radian.
 pub const FOLD_STRENGTHS: std::ops::RangeInclusive<f64> = 1e-5..=10.0;
 
@@ -118,16 +120,22 @@ impl Fold {
     }
 
     /// What is out of range, in words.
-    pub fn problem(&self) -> Option<String> {
+    pub fn problem(&self) -> Option<Words> {
         if !(-std::f64::consts::PI..=std::f64::consts::PI).contains(&self.angle) {
-            return Some(format!(
-                "a fold has an angle of -180 to 180 degrees, not {}",
-                self.angle.to_degrees()
+            return Some(words!(
+                "a fold has an angle of -180 to 180 degrees, not {degrees}",
+                degrees = self.angle.to_degrees()
             ));
         }
         let (least, most) = (FOLD_STRENGTHS.start(), FOLD_STRENGTHS.end());
-        (!FOLD_STRENGTHS.contains(&self.strength))
-            .then(|| format!("the strength of a fold is {least} to {most} N, not {}", self.strength))
+        (!FOLD_STRENGTHS.contains(&self.strength)).then(|| {
+            words!(
+                "the strength of a fold is {least} to {most} N, not {strength}",
+                least,
+                most,
+                strength = self.strength
+            )
+        })
     }
 }
 
@@ -138,27 +146,30 @@ impl Elastic {
     pub const USUAL: Self = Self { ratio: 0.75, tension: Self::WAISTBAND };
 
     /// What is out of range, in words.
-    pub fn problem(&self) -> Option<String> {
-        let within = |what: &str, value: f64, range: &std::ops::RangeInclusive<f64>| {
+    pub fn problem(&self) -> Option<Words> {
+        let within = |what: Words, value: f64, range: &std::ops::RangeInclusive<f64>| {
             beyond(what, value, *range.start(), *range.end())
         };
-        within("the length ratio of elastic", self.ratio, &ELASTIC_RATIOS)
-            .or_else(|| within("the tension of elastic (N)", self.tension, &ELASTIC_TENSIONS))
+        within(words!("the length ratio of elastic"), self.ratio, &ELASTIC_RATIOS)
+            .or_else(|| within(words!("the tension of elastic (N)"), self.tension, &ELASTIC_TENSIONS))
     }
 }
 
 /// "WHAT is LEAST to MOST, not VALUE", where that is so.
-fn beyond(what: &str, value: f64, least: f64, most: f64) -> Option<String> {
-    (!(least..=most).contains(&value)).then(|| format!("{what} is {least} to {most}, not {value}"))
+fn beyond(what: Words, value: f64, least: f64, most: f64) -> Option<Words> {
+    (!(least..=most).contains(&value))
+        .then(|| words!("{what} is {least} to {most}, not {value}", what, least, most, value))
 }
 
 impl Topstitch {
     /// What is out of range, in words.
-    pub fn problem(&self) -> Option<String> {
-        beyond("the distance of topstitching (m)", self.distance, 0.0, 0.1)
-            .or_else(|| beyond("the length of a stitch (m)", self.length, 0.0005, 0.03))
-            .or_else(|| beyond("the number of rows of topstitching", f64::from(self.rows), 1.0, 6.0))
-            .or_else(|| beyond("the distance between rows of topstitching (m)", self.spacing, 0.0005, 0.05))
+    pub fn problem(&self) -> Option<Words> {
+        beyond(words!("the distance of topstitching (m)"), self.distance, 0.0, 0.1)
+            .or_else(|| beyond(words!("the length of a stitch (m)"), self.length, 0.0005, 0.03))
+            .or_else(|| beyond(words!("the number of rows of topstitching"), f64::from(self.rows), 1.0, 6.0))
+            .or_else(|| {
+                beyond(words!("the distance between rows of topstitching (m)"), self.spacing, 0.0005, 0.05)
+            })
     }
 }
 
@@ -167,8 +178,8 @@ impl Hem {
     pub const USUAL: Self = Self { width: 0.02, colour: None };
 
     /// What is out of range, in words.
-    pub fn problem(&self) -> Option<String> {
-        beyond("the width of a hem (m)", self.width, 0.003, 0.2)
+    pub fn problem(&self) -> Option<Words> {
+        beyond(words!("the width of a hem (m)"), self.width, 0.003, 0.2)
     }
 }
 
@@ -185,8 +196,8 @@ impl Piping {
     }
 
     /// What is out of range, in words.
-    pub fn problem(&self) -> Option<String> {
-        beyond("the radius of piping (m)", self.radius, *PIPING_RADII.start(), *PIPING_RADII.end())
+    pub fn problem(&self) -> Option<Words> {
+        beyond(words!("the radius of piping (m)"), self.radius, *PIPING_RADII.start(), *PIPING_RADII.end())
     }
 }
 
@@ -212,7 +223,7 @@ impl Trims {
     }
 
     /// The first thing out of range, in words.
-    pub fn problem(&self) -> Option<String> {
+    pub fn problem(&self) -> Option<Words> {
         let Self { fold, elastic, topstitch, hem, piping } = self;
         fold.and_then(|fold| fold.problem())
             .or_else(|| elastic.and_then(|elastic| elastic.problem()))

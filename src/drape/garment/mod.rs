@@ -38,6 +38,7 @@ use crate::drape::state::State;
 use crate::geometry::crossings::meetings;
 use crate::geometry::ids::PieceId;
 use crate::geometry::mesh::TriMesh;
+use crate::geometry::words::{Words, words};
 
 /// Simulated time of a tick, seconds.
 pub const TICK: f64 = 1.0 / 60.0;
@@ -102,7 +103,7 @@ pub struct DrapedSettings {
 /// Why a garment cannot be draped, in words.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("{0}")]
-pub struct Undrapable(pub String);
+pub struct Undrapable(pub Words);
 
 /// State of convergence.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -235,7 +236,7 @@ impl DrapedGarment {
         let triangles = laid.iter().map(|&t| garment.triangles[t].map(|v| own[v as usize])).collect();
         let rest: Vec<[DVec2; 3]> = laid.iter().map(|&t| garment.rest[t]).collect();
         let sheet = Sheet::new(vertices.len(), triangles, rest)
-            .map_err(|why| Undrapable(format!("the cloth cannot be draped: {why}")))?;
+            .map_err(|why| Undrapable(words!("the cloth cannot be draped: {why}", why = why.words())))?;
         let (sheet, mut worked) = Worked::new(sheet, &garment, &own, sewn.is_some());
         let of_triangle: Vec<&Fabric> = laid.iter().map(|&t| fabric(t)).collect();
         let first = |v: u32| of_triangle[sheet.adjacency.vertex_triangles.of(v)[0] as usize];
@@ -503,7 +504,7 @@ impl DrapedGarment {
         self.counters.contact_checks += moved;
         if let Some(lost) = self.state.lost() {
             self.state = begun.before;
-            return Err(Undrapable(format!("vertex {} of the cloth went nowhere", fixed.vertices[lost])));
+            return Err(Undrapable(words!("vertex {n} of the cloth went nowhere", n = fixed.vertices[lost])));
         }
         if begun.advance.is_done() {
             self.measure(&begun.before, begun.span);

@@ -3,6 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use crate::geometry::ids::PieceId;
+use crate::geometry::words::{Words, words};
 use crate::pattern::edit::pieces::change as change_piece;
 use crate::pattern::edit::{Change, find, symmetric_image};
 use crate::pattern::{EdgeRef, Pattern, Piece, Trims};
@@ -44,19 +45,21 @@ impl TrimLine {
 pub(super) fn set(
     pattern: &mut Pattern,
     lines: &[TrimLine],
-    label: &str,
+    label: Words,
     change: impl Fn(&mut Trims),
-) -> Result<Change, String> {
+) -> Result<Change, Words> {
     if lines.is_empty() {
-        return Err(format!("choose an edge or a line first to {label}"));
+        return Err(words!("choose an edge or a line first to {label}", label));
     }
     for &line in lines {
         let piece = find(pattern, line.piece())?;
         if line.of(piece).is_none() {
             return Err(match line {
-                TrimLine::Edge(edge) => format!("{} has no edge {}", piece.name, edge.edge.saturating_add(1)),
+                TrimLine::Edge(edge) => {
+                    words!("{name} has no edge {n}", name = piece.name, n = edge.edge.saturating_add(1))
+                }
                 TrimLine::Line { line, .. } => {
-                    format!("{} has no line {}", piece.name, line.saturating_add(1))
+                    words!("{name} has no line {n}", name = piece.name, n = line.saturating_add(1))
                 }
             });
         }

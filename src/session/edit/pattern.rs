@@ -6,6 +6,7 @@ use glam::DVec2;
 
 use crate::geometry::ids::PieceId;
 use crate::geometry::polygon;
+use crate::geometry::words::{Words, words};
 use crate::pattern::edit::{self, Carried, PatternEdit};
 use crate::pattern::{Edge, Pattern, Piece, PiecePoint, Seam};
 use crate::session::command::Rejection;
@@ -19,7 +20,7 @@ const MOST_EDITS: usize = 10_000;
 
 pub fn edit(mut document: Document, edits: &[PatternEdit]) -> Result<Edit, Rejection> {
     if edits.is_empty() || edits.len() > MOST_EDITS {
-        return Err(Rejection(format!("a command holds 1 to {MOST_EDITS} changes")));
+        return Err(Rejection(words!("a command holds 1 to {most} changes", most = MOST_EDITS)));
     }
     let before = Arc::clone(&document.pattern);
     let (mut label, mut carried) = (None, Vec::new());
@@ -57,7 +58,7 @@ pub fn replace_all(
     document.take_marks(Arc::clone(marks));
     document.drop_pins();
     artwork::forget_gone(&mut document.artwork, |_| false);
-    Ok(Edit::new(format!("take {name}"), document).with(ClothChange::Clear))
+    Ok(Edit::new(words!("take {name}", name), document).with(ClothChange::Clear))
 }
 
 /// Checks the numbers and names of an edit by itself.
@@ -96,7 +97,7 @@ fn check(edit: &PatternEdit) -> Result<(), Rejection> {
     }
 }
 
-fn sound(problem: Option<String>) -> Result<(), Rejection> {
+fn sound(problem: Option<Words>) -> Result<(), Rejection> {
     problem.map_or(Ok(()), |words| Err(Rejection(words)))
 }
 

@@ -14,7 +14,6 @@ use crate::ui::actions::layout::Layout;
 use crate::ui::actions::picked::Picked;
 use crate::ui::actions::row::Need;
 use crate::ui::actions::sight::Sight;
-use crate::ui::actions::steps::step_words;
 use crate::ui::actions::{Action, Tool};
 use crate::ui::files::recent::RecentFile;
 use crate::ui::language::{say, tr};
@@ -272,8 +271,8 @@ impl FrameContext {
             return file.name().0;
         }
         match (action, &self.undo, &self.redo) {
-            (Action::Undo, Some(what), _) => say!("Undo {what}", what = step_words(what)),
-            (Action::Redo, _, Some(what)) => say!("Redo {what}", what = step_words(what)),
+            (Action::Undo, Some(what), _) => say!("Undo {what}", what),
+            (Action::Redo, _, Some(what)) => say!("Redo {what}", what),
             _ => action.row().label().to_owned(),
         }
     }

@@ -3,6 +3,7 @@
 use std::path::Path;
 use std::sync::Arc;
 
+use crate::geometry::words::Words;
 use crate::io::scale::DrawingUnit;
 use crate::pattern::edit::PatternEdit;
 use crate::place::Moved;
@@ -12,7 +13,7 @@ use crate::ui::app::{App, sentence};
 use crate::ui::files::obj_sequence::read_sequence;
 use crate::ui::files::posed_motion::PosedMotion;
 use crate::ui::files::{self, PatternImport, PoseFile, Purpose, RawBody};
-use crate::ui::language::{say, tr};
+use crate::ui::language::{said, say, tr};
 use crate::ui::maps::Opening;
 use crate::ui::shell::dialogs::{Dialog, NativeDialog};
 use crate::ui::shell::drop_overlay::Dropped;
@@ -114,7 +115,7 @@ impl App {
         let moved = self.session.brought(&pattern);
         if !moved.placements.is_empty() {
             moved.carry_out(Arc::make_mut(&mut pattern));
-            let how = moved.words.join(", ");
+            let how = said(&Words::joined(moved.words, ", "));
             notes.push(say!("Its pieces were placed for another body: {how}", how));
         }
         Command::ReplacePattern { name, pattern, marks }
@@ -129,14 +130,14 @@ impl App {
         }
         let edits = vec![PatternEdit::PlaceInSpace { placements }];
         self.apply(Command::EditPattern { edits, anew: false });
-        self.messages.tell(sentence(&words.join(", ")));
+        self.messages.tell(sentence(&said(&Words::joined(words, ", "))));
     }
 
     pub(in crate::ui) fn export_pattern(&mut self, path: &Path) -> Result<(), String> {
         let left_out = files::export_pattern(path, &self.session.document().pattern, self.preferences.paper)?;
         self.wrote(path);
         if !left_out.is_empty() {
-            self.messages.tell(left_out.join("; "));
+            self.messages.tell(left_out.iter().map(said).collect::<Vec<_>>().join("; "));
         }
         Ok(())
     }

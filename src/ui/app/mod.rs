@@ -50,7 +50,7 @@ use crate::ui::body_pane::ghosts::Ghosts;
 use crate::ui::files::recent::Recent;
 use crate::ui::files::{self, Purpose};
 use crate::ui::language::choice::{self, Languages};
-use crate::ui::language::{self, say, tr};
+use crate::ui::language::{self, said, say, tr};
 use crate::ui::look::scheme::Scheme;
 use crate::ui::look::theme::{self, Palette};
 use crate::ui::panels::marks::MarksPanel;
@@ -371,7 +371,7 @@ impl App {
         for notice in self.session.update() {
             match notice {
                 Notice::AtRest { .. } => {}
-                Notice::Failed { words, .. } => self.messages.error(words),
+                Notice::Failed { words, .. } => self.messages.error(said(&words)),
                 Notice::HistoryShortened => {
                     self.messages.tell(tr("Older steps can no longer be undone, to save memory."));
                 }
@@ -412,7 +412,7 @@ impl App {
             Ok(()) if is_wrap => self.wrap_seq = Some(self.session.last_seq()),
             Ok(()) if is_body => self.tell_lost_marks(),
             Ok(()) => {}
-            Err(why) => self.messages.error(sentence(&why.0)),
+            Err(why) => self.messages.error(sentence(&said(&why.0))),
         }
     }
 
@@ -428,7 +428,7 @@ impl App {
         let gesture = *self.drag.get_or_insert_with(|| self.session.begin_gesture());
         // The drag may go on to a place where the command is possible, so this is no error that stays on the screen.
         if let Err(why) = self.session.apply(command, gesture) {
-            self.messages.tell(sentence(&why.0));
+            self.messages.tell(sentence(&said(&why.0)));
         }
     }
 

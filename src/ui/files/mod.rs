@@ -13,6 +13,7 @@ use glam::DVec3;
 use crate::body::pose::motion::Clip;
 use crate::body::{Unit, UpAxis, guess_unit, import};
 use crate::geometry::mesh::TriMesh;
+use crate::geometry::words::Words;
 use crate::io::atlas::AtlasLayout;
 use crate::io::body_file;
 use crate::io::pattern_file::PatternFileError;
@@ -29,7 +30,7 @@ use crate::session::{
     AnimatedFile, Animations, BodyChoice, Command, Document, ImageFile, Project, project_file, whole_file,
 };
 use crate::sim::Snapshot;
-use crate::ui::language::{say, tr};
+use crate::ui::language::{said, say, tr};
 use crate::ui::scenery::fabric_textures::USUAL_SIDE;
 use crate::ui::scenery::worn::{self, Worn};
 
@@ -238,7 +239,7 @@ fn rules_beside(path: &Path) -> Result<Option<Vec<u8>>, String> {
 }
 
 /// Writes `pattern` in the format of the file's extension; `paper` is for PDF. Returns what the format cannot hold.
-pub fn export_pattern(path: &Path, pattern: &Pattern, paper: Paper) -> Result<Vec<String>, String> {
+pub fn export_pattern(path: &Path, pattern: &Pattern, paper: Paper) -> Result<Vec<Words>, String> {
     let ending = path.extension().unwrap_or_default().to_string_lossy();
     let Some(format) = PatternFormat::of_ending(&ending) else {
         let words = say!("the name must end in {endings}", endings = endings(PatternFormat::ALL));
@@ -377,7 +378,7 @@ fn imported(mut raw: RawBody) -> Result<(BodyChoice, Vec<String>), String> {
     raw.up.set_upright(&mut raw.mesh);
     let imported = import(raw.mesh, raw.unit);
     if !imported.is_usable() {
-        let faults: Vec<String> = imported.problems.into_iter().map(|p| p.words).collect();
+        let faults: Vec<String> = imported.problems.iter().map(|p| said(&p.words)).collect();
         let why = faults.join("; ");
         return Err(say!("{name} cannot be used as a body: {why}", name = raw.name, why));
     }
