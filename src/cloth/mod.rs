@@ -11,6 +11,7 @@ pub mod look;
 pub mod refine;
 pub mod skips;
 pub mod trims;
+pub mod wrinkles;
 
 pub use build::{build, build_again};
 pub use carry::Carry;

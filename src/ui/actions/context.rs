@@ -198,6 +198,7 @@ impl FrameContext {
             Need::Standing => (picked.standing, "No piece that stands round the body is selected"),
             Need::PickedEdge => (picked.edges > 0, "No edge is selected"),
             Need::PickedLine => (picked.edges + picked.lines > 0, "No edge or line is selected"),
+            Need::PickedInnerLine => (picked.lines > 0, "No line inside a piece is selected"),
             Need::Buttons => (picked.buttons, "There is no button"),
             Need::PickedPoint => (picked.points > 0, "No point is selected"),
             Need::PickedSeam => (picked.seams > 0, "No seam is selected"),

@@ -146,6 +146,7 @@ pub enum Action {
     ToggleTopstitch,
     ToggleHem,
     TogglePiping,
+    ToggleWrinkle,
     ToggleZip,
     ToggleFastened,
     TurnSeam,
