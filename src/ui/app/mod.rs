@@ -479,6 +479,12 @@ impl App {
             Answer::File(purpose, path) => self.file(ctx, purpose, &path),
             Answer::Restore(left) => self.restore(ctx, *left),
             Answer::SaveAs => self.ask_file(Purpose::Save),
+            Answer::Elsewhere(purpose) => self.ask_file(purpose),
+            Answer::Export(written) => {
+                if let Err(words) = self.write_export(&written) {
+                    self.messages.error(words);
+                }
+            }
             Answer::Replace(path) => self.save_over(ctx, &path),
             Answer::Overwrite(path) => {
                 self.on_disk = None;
