@@ -10,13 +10,13 @@ use crate::cli::arguments::PictureOptions;
 use crate::cli::failure::Failure;
 use crate::cli::files;
 use crate::cli::interrupt;
-use crate::io::environment;
 use crate::pack::Picture;
 use crate::render::{
-    Fineness, Harmonics, Legend, Look, MEAN_LIGHT, RenderError, Rgb, Studio, View, framed, png, straightened,
+    Fineness, Harmonics, Legend, Look, RenderError, Rgb, Studio, View, framed, png, straightened,
 };
 use crate::session::{Outfit, Session};
 use crate::ui::fit_page::FitPage;
+use crate::ui::scenery::environment::light_of;
 use crate::ui::scenery::front_and_back::front_and_back;
 use crate::ui::scenery::portrait::{Extras, portrait, worn_scene};
 use crate::ui::scenery::scene::Scenery;
@@ -102,9 +102,7 @@ impl Artist {
 
 /// Light from all sides out of the image at `path`, as bright as the studio's.
 pub fn environment(path: &Path) -> Result<Harmonics, Failure> {
-    let image = environment::read(&files::read(path)?).map_err(|words| Failure::input(path, words))?;
-    let light = Harmonics::of_image(&image).with_mean(MEAN_LIGHT);
-    light.ok_or_else(|| Failure::input(path, "it is black: no light comes from it"))
+    light_of(&files::read(path)?).map_err(|words| Failure::input(path, words))
 }
 
 fn failure(error: RenderError) -> Failure {

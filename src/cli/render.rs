@@ -11,7 +11,9 @@ use crate::ui::scenery::portrait::{numbered, turned};
 
 /// Draws one picture, or those of a full turn.
 pub fn render(arguments: &Render) -> Result<(), Failure> {
+    let rotation = arguments.environment_rotation.unwrap_or_default().to_radians();
     let environment = arguments.environment.as_deref().map(environment).transpose()?;
+    let environment = environment.map(|light| light.turned(rotation));
     let input = input::load(&arguments.project, &arguments.input)?;
     let mut session = run::opened(input.project, &arguments.project)?;
     run::choose_cloth(&mut session, &arguments.cloth)?;

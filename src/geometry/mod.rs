@@ -16,6 +16,7 @@ pub mod problem;
 pub mod random;
 pub mod rebuild;
 pub mod shapes;
+pub mod solid;
 pub mod walk;
 pub mod wide;
 pub mod winding;

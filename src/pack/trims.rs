@@ -105,7 +105,8 @@ impl Rows<'_> {
         if trims.is_none() {
             return;
         }
-        let Trims { fold, elastic, topstitch, hem, piping } = trims;
+        // A wrinkle is how cloth lies, and not worked.
+        let Trims { fold, elastic, topstitch, hem, piping, wrinkle: _ } = trims;
         let length = Some(length());
         if let Some(fold) = fold {
             let degrees = decimal(fold.angle.to_degrees().abs(), 0);

@@ -113,7 +113,7 @@ mod tests {
     };
     use crate::session::{Artwork, Graphic, ImageFile, Motif};
 
-    /// All that is worked along edges.
+    /// All that is worked along edges; a wrinkle is not.
     fn all_trims() -> Trims {
         Trims {
             fold: Some(Fold::pressed(1.0)),
@@ -121,6 +121,7 @@ mod tests {
             topstitch: Some(Topstitch::default()),
             hem: Some(Hem::USUAL),
             piping: Some(Piping::USUAL),
+            wrinkle: None,
         }
     }
 
@@ -153,7 +154,7 @@ mod tests {
     fn all_that_is_worked_and_bought_is_told_in_german() {
         let (pattern, artwork) = worked_everywhere();
         let rows = trims(&pattern, &artwork);
-        let Trims { fold, elastic, topstitch, hem, piping } = all_trims();
+        let Trims { fold, elastic, topstitch, hem, piping, wrinkle: _ } = all_trims();
         let along = [
             ("fold", fold.is_some()),
             ("elastic", elastic.is_some()),

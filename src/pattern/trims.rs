@@ -1,4 +1,4 @@
-//! Trims of edges and internal lines: fold lines (creases), elastic, topstitching, hems and piping.
+//! Trims of edges and internal lines: fold lines (creases), elastic, topstitching, hems, piping and wrinkles.
 
 use serde::{Deserialize, Serialize};
 
@@ -14,6 +14,9 @@ pub const ELASTIC_TENSIONS: std::ops::RangeInclusive<f64> = 0.1..=1000.0;
 
 /// Range of the radius of piping, metres.
 pub const PIPING_RADII: std::ops::RangeInclusive<f64> = 0.0005..=0.006;
+
+/// Range of the width of a wrinkle, metres.
+pub const WRINKLE_WIDTHS: std::ops::RangeInclusive<f64> = 0.005..=0.1;
 
 /// What is worked along one edge of a closed line or of an internal line. Each edge carries its own, so that it follows when
 /// edges are split, mirrored or numbered anew.
@@ -35,6 +38,10 @@ pub struct Trims {
     /// A covered cord is sewn in along the line. Where both sides of a seam name one, the seam has one.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub piping: Option<Piping>,
+    /// The cloth is raised to a soft ridge along the line, or sunk to a valley. Only internal lines have one; on an edge of a closed
+    /// line it has no effect.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub wrinkle: Option<Wrinkle>,
 }
 
 /// Topstitching: rows of stitches along a line, on the cloth side of an edge.
@@ -78,6 +85,17 @@ pub struct Piping {
     pub radius: f64,
     /// Colour of its cover, sRGB.
     pub colour: [u8; 3],
+}
+
+/// A wrinkle along a line: a soft ridge or valley whose profile across the line is H cos²(π d / W) at the distance d < W/2.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Wrinkle {
+    /// Width W across the line, metres of cloth, within [`WRINKLE_WIDTHS`].
+    pub width: f64,
+    /// Height H, metres, -W/2..=W/2: positive towards the outer (front) side. Cloth does not stretch to it, so that a steep wrinkle
+    /// is lower than this: at H = W/2, where its sides are upright, 3/4 as high ([`Wrinkle::risen`]).
+    pub height: f64,
 }
 
 /// Elastic sewn along a line: it gathers the cloth to its own length, and stretches up to that of the cloth.
@@ -201,6 +219,36 @@ impl Piping {
     }
 }
 
+impl Wrinkle {
+    /// The wrinkle that a line is given first.
+    pub const USUAL: Self = Self { width: 0.04, height: 0.008 };
+
+    /// What is out of range, in words.
+    pub fn problem(&self) -> Option<Words> {
+        let half = self.width / 2.0;
+        beyond(
+            words!("the width of a wrinkle (m)"),
+            self.width,
+            *WRINKLE_WIDTHS.start(),
+            *WRINKLE_WIDTHS.end(),
+        )
+        .or_else(|| {
+            beyond(words!("the height of a wrinkle (m), at most half its width,"), self.height, -half, half)
+        })
+    }
+
+    /// The same with another width; the height stays at most half of it.
+    pub fn as_wide_as(self, width: f64) -> Self {
+        let width = width.clamp(*WRINKLE_WIDTHS.start(), *WRINKLE_WIDTHS.end());
+        Self { width, ..self }.as_high_as(self.height)
+    }
+
+    /// The same with another height, at most half its width.
+    pub fn as_high_as(self, height: f64) -> Self {
+        Self { height: height.clamp(-self.width / 2.0, self.width / 2.0), ..self }
+    }
+}
+
 impl Trims {
     /// Whether there are none.
     pub fn is_none(&self) -> bool {
@@ -209,7 +257,7 @@ impl Trims {
 
     /// Whether edges of the mesh must follow the line.
     pub fn needs_mesh(&self) -> bool {
-        self.fold.is_some() || self.elastic.is_some() || self.piping.is_some()
+        self.fold.is_some() || self.elastic.is_some() || self.piping.is_some() || self.wrinkle.is_some()
     }
 
     /// The trims that physics knows of.
@@ -224,12 +272,13 @@ impl Trims {
 
     /// The first thing out of range, in words.
     pub fn problem(&self) -> Option<Words> {
-        let Self { fold, elastic, topstitch, hem, piping } = self;
+        let Self { fold, elastic, topstitch, hem, piping, wrinkle } = self;
         fold.and_then(|fold| fold.problem())
             .or_else(|| elastic.and_then(|elastic| elastic.problem()))
             .or_else(|| topstitch.and_then(|topstitch| topstitch.problem()))
             .or_else(|| hem.and_then(|hem| hem.problem()))
             .or_else(|| piping.and_then(|piping| piping.problem()))
+            .or_else(|| wrinkle.and_then(|wrinkle| wrinkle.problem()))
     }
 }
 
@@ -267,5 +316,33 @@ mod tests {
         let dyed = Trims { piping: Some(Piping { colour: [9; 3], ..Piping::USUAL }), ..Trims::default() };
         assert_eq!(dyed.physical(), of(Piping::USUAL.radius).physical());
         assert!(dyed.physical() != of(0.003).physical() && dyed.needs_mesh());
+    }
+
+    #[test]
+    fn a_wrinkle_is_kept_in_files_and_bad_ones_are_refused_in_words() {
+        let old = r#"{"start":[0.5,0.25],"shape":"line","trims":{"hem":{"width":0.02}}}"#;
+        let mut edge: Edge = serde_json::from_str(old).expect("an edge");
+        assert_eq!(edge.trims.wrinkle, None);
+        edge.trims.wrinkle = Some(Wrinkle { width: 0.03, height: -0.005 });
+        let text = serde_json::to_string(&edge).expect("text");
+        assert!(text.contains(r#""wrinkle":{"width":0.03,"height":-0.005}"#), "{text}");
+        assert_eq!(serde_json::from_str::<Edge>(&text).expect("an edge"), edge);
+        let of = |width, height| Trims { wrinkle: Some(Wrinkle { width, height }), ..Trims::default() };
+        for (width, height) in [(0.005, 0.0025), (0.1, -0.05), (0.04, 0.0)] {
+            assert_eq!(of(width, height).problem(), None);
+        }
+        for width in [0.0, 0.0049, 0.101, -0.04, f64::NAN, f64::INFINITY] {
+            let problem = of(width, 0.0).problem().expect("a problem");
+            assert!(problem.starts_with("the width of a wrinkle (m) is 0.005 to 0.1, not "), "{problem}");
+        }
+        for height in [0.0201, -0.0201, f64::NAN, f64::INFINITY] {
+            let problem = of(0.04, height).problem().expect("a problem");
+            let words = "the height of a wrinkle (m), at most half its width, is -0.02 to 0.02, not ";
+            assert!(problem.starts_with(words), "{problem}");
+        }
+        let steep = Wrinkle { width: 0.04, height: 0.02 };
+        assert_eq!(steep.as_wide_as(0.01), Wrinkle { width: 0.01, height: 0.005 });
+        assert_eq!(steep.as_high_as(-1.0), Wrinkle { width: 0.04, height: -0.02 });
+        assert!(of(0.04, 0.01).needs_mesh() && of(0.04, 0.01).physical() == of(0.04, 0.01));
     }
 }

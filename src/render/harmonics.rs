@@ -78,6 +78,33 @@ impl Harmonics {
         (own > 0.0 && factor.is_finite()).then(|| Self(self.0.map(|c| c * factor)))
     }
 
+    /// The same light turned by `angle` radians about the axis y, counter-clockwise as seen from above: at a quarter turn, what came
+    /// from +z comes from +x.
+    #[must_use]
+    pub fn turned(&self, angle: f32) -> Self {
+        let angle = f64::from(angle);
+        let ((sin, cos), (sin_2, cos_2)) = (angle.sin_cos(), (2.0 * angle).sin_cos());
+        let [constant, y, z, x, xy, yz, zz, xz, xx_yy] = self.0.map(|c| c.as_dvec3());
+        // The normalised 3z² - 1 and x² - y² are combinations of 3y² - 1, which stays, and of x² - z², which turns with xz by twice
+        // the angle.
+        let half_root_3 = 0.75_f64.sqrt();
+        let upright = -0.5 * zz - half_root_3 * xx_yy;
+        let level = -half_root_3 * zz + 0.5 * xx_yy;
+        let level_turned = level * cos_2 + xz * sin_2;
+        let turned = [
+            constant,
+            y,
+            z * cos - x * sin,
+            x * cos + z * sin,
+            xy * cos + yz * sin,
+            yz * cos - xy * sin,
+            -0.5 * upright - half_root_3 * level_turned,
+            xz * cos_2 - level * sin_2,
+            -half_root_3 * upright + 0.5 * level_turned,
+        ];
+        Self(turned.map(|c| c.as_vec3()))
+    }
+
     /// Factors of the polynomials 1; y, z, x; xy, yz, 3z² - 1, xz, x² - y² of a normal, of which the sum is the light that a matt
     /// white surface reflects: the irradiance over π.
     pub(super) fn reflected(&self) -> [Vec3; 9] {
@@ -209,6 +236,40 @@ mod tests {
             irradiance(&light, Vec3::Z).x > 4.0 * irradiance(&light, Vec3::NEG_Z).x,
             "the middle is before one"
         );
+    }
+
+    /// The largest difference of two lights' coefficients.
+    fn apart(a: &Harmonics, b: &Harmonics) -> f32 {
+        a.0.iter().zip(b.0).map(|(a, b)| (*a - b).abs().max_element()).fold(0.0, f32::max)
+    }
+
+    #[test]
+    fn the_light_of_a_turned_image_is_its_light_turned() {
+        // Different in every pixel, and like itself in no turn.
+        let image = Rgb32FImage::from_fn(64, 32, |x, y| {
+            let (x, y) = (x as f32, y as f32);
+            image::Rgb([x * x / 64.0 + y, (x * 0.7 + y * 0.31).sin() + 2.0, if x < 9.0 { 40.0 } else { 1.0 }])
+        });
+        let light = Harmonics::of_image(&image);
+        assert!(apart(&light.turned(0.0), &light) < 1e-5);
+        for columns in [1, 16, 21, 32, 50] {
+            let turned = Rgb32FImage::from_fn(64, 32, |x, y| *image.get_pixel((x + columns) % 64, y));
+            let angle = TAU as f32 * columns as f32 / 64.0;
+            let turned = Harmonics::of_image(&turned);
+            let [error, change] = [light.turned(angle), light].map(|light| apart(&light, &turned));
+            assert!(error < 1e-5 * apart(&light, &Harmonics([Vec3::ZERO; 9])), "{columns}: {error}");
+            assert!(change > 0.1, "{columns}: the image is another, {change}");
+        }
+    }
+
+    #[test]
+    fn light_turns_counter_clockwise_from_above() {
+        let front = Harmonics::of(|d| Vec3::splat(d.z.max(0.0)));
+        let left = Harmonics::of(|d| Vec3::splat(d.x.max(0.0)));
+        assert!(apart(&front.turned(std::f32::consts::FRAC_PI_2), &left) < 1e-5);
+        let up = Harmonics::of(|d| Vec3::splat(d.y.max(0.0)));
+        assert!(apart(&up.turned(1.0), &up) < 1e-5, "light from above stays");
+        assert!(apart(&front.turned(0.4).turned(0.5), &front.turned(0.9)) < 1e-5);
     }
 
     #[test]

@@ -3,11 +3,13 @@
 use std::str::FromStr;
 
 use glam::Vec3;
+use serde::{Deserialize, Serialize};
 
 use super::scene::Rgb;
 
 /// Surroundings of a picture, which give its light and its background.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
 pub enum Light {
     /// A lamp above the viewer's left shoulder in a bright room, in the colours of the [`Look`](super::Look).
     #[default]

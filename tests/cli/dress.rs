@@ -121,6 +121,17 @@ fn cloth_is_drawn_in_the_fabric_colour_and_print_that_are_asked_for() {
     fails("--print plaid:20:ffffff", "plaid");
     fails("--supersample 9", "9");
     fails("--body-look clay", "skin, form");
+}
+
+#[test]
+fn an_environment_map_lights_pictures_and_is_rotated() {
+    let place = Place::with_ball();
+    place.ends(0, "dress ball.toile --out out --save dressed.toile");
+    let plain = place.draws("render dressed.toile -o out.png --size 120x120");
+    if plain.code == 5 && !adapter_required() {
+        println!("no graphics adapter: pictures not tested");
+        return;
+    }
     let image = |name: &str, width: u32| {
         let garden =
             image::RgbImage::from_fn(width, 16, |x, y| image::Rgb([8 * x as u8, 200 - 9 * y as u8, 40]));
@@ -128,19 +139,33 @@ fn cloth_is_drawn_in_the_fabric_colour_and_print_that_are_asked_for() {
     };
     image("garden.png", 32);
     image("square.png", 16);
-    let lit = place.draws("render dressed.toile --environment garden.png -o lit.png --size 120x120");
-    assert_eq!(lit.code, 0, "{}", lit.err);
-    assert!(!pictures.contains(&std::fs::read(place.path("lit.png")).expect("a picture")), "in other light");
-    let refused = |code, name: &str, words: &str| {
-        place.ends_with_words(code, &format!("render dressed.toile --environment {name} -o out.png"), words);
+    let garden = "--environment garden.png";
+    let options = [
+        String::new(),
+        garden.to_owned(),
+        format!("{garden} --environment-rotation 90"),
+        format!("{garden} --environment-rotation 202.5"),
+    ];
+    let pictures = options.each_ref().map(|options| {
+        let done = place.draws(&format!("render dressed.toile {options} -o out.png --size 120x120"));
+        assert_eq!(done.code, 0, "{options}: {}", done.err);
+        std::fs::read(place.path("out.png")).expect("a picture")
+    });
+    for (i, picture) in pictures.iter().enumerate() {
+        assert!(!pictures[..i].contains(picture), "{:?} changes nothing", options[i]);
+    }
+    let refused = |code, options: &str, words: &str| {
+        place.ends_with_words(code, &format!("render dressed.toile {options} -o out.png"), words);
     };
     refused(
         3,
-        "square.png",
+        "--environment square.png",
         "square.png: it has 16 by 16 pixels; an image of all directions is twice as wide",
     );
-    refused(3, "dressed.toile", "neither PNG, JPEG nor Radiance HDR");
-    refused(6, "nowhere.hdr", "nowhere.hdr");
+    refused(3, "--environment dressed.toile", "neither PNG, JPEG nor Radiance HDR");
+    refused(6, "--environment nowhere.hdr", "nowhere.hdr");
+    refused(2, &format!("{garden} --environment-rotation 361"), "0 to 360");
+    refused(2, "--environment-rotation 90", "--environment <IMAGE>");
 }
 
 #[test]

@@ -508,6 +508,37 @@ fn an_image_lights_from_where_it_is_bright() {
 }
 
 #[test]
+fn the_light_of_an_image_is_rotated_about_the_vertical_axis() {
+    let Some(mut studio) = studio() else { return };
+    // Red towards -x, blue towards +x, and brighter above.
+    let image = image::Rgb32FImage::from_fn(64, 32, |x, y| {
+        let light = if y < 16 { 2.0 } else { 1.0 };
+        image::Rgb(if x >= 32 { [90.0, 20.0, 20.0] } else { [20.0, 20.0, 90.0] }.map(|c| c * light))
+    });
+    let light = Harmonics::of_image(&image).with_mean(MEAN_LIGHT).expect("light");
+    let scene = Scene { meshes: vec![Arc::new(sphere(0.5, [160; 3], [160; 3]))], ..Default::default() };
+    let mut drawn = |view: View, degrees: f32| {
+        let environment = Some(light.turned(degrees.to_radians()));
+        let look = Look { environment, key: 0.0, ..Look::light() };
+        studio.picture(&scene, view, &look, SIZE).expect("a picture")
+    };
+    let warmth = |image: &image::RgbaImage| {
+        let [r, _, b] = pixel(image, 160, 120);
+        r - b
+    };
+    let front = [0.0, 90.0, 180.0, 270.0].map(|degrees| warmth(&drawn(View::Front, degrees)));
+    assert!(front[0].abs() < 12 && front[2].abs() < 12, "both from the sides: {front:?}");
+    assert!(front[1] > 30 && front[3] < -30, "what came from -x comes from +z, then from -z: {front:?}");
+    // Light that goes round by a quarter looks as to an eye that goes round the other way.
+    for (seen_from, degrees) in [(View::Right, 90.0), (View::Back, 180.0), (View::Left, 270.0)] {
+        let [moved, still] = [drawn(View::Front, degrees), drawn(seen_from, 0.0)];
+        let apart: f64 = moved.iter().zip(still.iter()).map(|(a, b)| f64::from(a.abs_diff(*b))).sum();
+        assert!(apart / (moved.len() as f64) < 0.5, "{seen_from:?}: {apart}");
+        assert!(moved != drawn(View::Front, 0.0), "{degrees}");
+    }
+}
+
+#[test]
 fn polished_cloth_reflects_what_is_around_it() {
     let Some(mut studio) = studio() else { return };
     let look = Look { key: 0.0, occlusion: 0.0, ..Look::light() };

@@ -23,6 +23,7 @@ mod common;
 mod demos;
 mod draping;
 mod dressing;
+mod environment;
 mod files;
 mod hand;
 mod language;

@@ -320,7 +320,12 @@ fn files_held_over_the_window_are_told_what_becomes_of_them() {
         ("a/anna.obj", "Nothing changes here", "anna.obj becomes the body"),
         ("a/shirt.toile", "Open the project shirt.toile", "with its body and cloth"),
         ("a/photo.jpg", "Take the image photo.jpg into the project", "Nothing changes here"),
-        ("a/photo.gif", "photo.gif: not a project", "nor a body (.obj, .glb, .gltf) or image (.png, .jpg)"),
+        ("a/garden.hdr", "Nothing changes here", "garden.hdr lights the scene"),
+        (
+            "a/photo.gif",
+            "photo.gif: not a project",
+            "nor a body (.obj, .glb, .gltf), image (.png, .jpg) or environment map (.hdr)",
+        ),
     ] {
         hold(&mut window, Some(name));
         window.get_by_label_contains(&format!("pattern pane: {left}"));

@@ -18,7 +18,7 @@ pub use crate::cli::arguments::bench::{Bench, BenchKind, CorpusOptions, TrustOpt
 pub use crate::cli::arguments::install::{Completions, Man};
 pub use crate::cli::arguments::marker::Marker;
 pub use crate::cli::arguments::picture::PictureOptions;
-use crate::cli::arguments::picture::{size, view};
+use crate::cli::arguments::picture::{rotation, size, view};
 pub use crate::cli::arguments::report::{Merge, Report, ReportTask};
 pub use crate::cli::arguments::techpack::TechPack;
 use crate::cli::cloth_options::ClothOptions;
@@ -358,6 +358,8 @@ pub struct Repose {
     /// Also writes sequence.usdz, the same as USD, with --sequence or --motion
     #[arg(long, conflicts_with_all = ["poses", "joints", "joint_files", "settle", "save"])]
     pub usd: bool,
+    #[command(flatten)]
+    pub textures: TextureOptions,
     /// The folder to write to
     #[arg(long, value_name = "DIR")]
     pub out: PathBuf,
@@ -536,6 +538,10 @@ pub struct Render {
     /// its middle before the body; its mean brightness is set to the studio's, and the lamp of --light stays
     #[arg(long, value_name = "IMAGE")]
     pub environment: Option<PathBuf>,
+    /// Rotation of the environment about the vertical axis, 0 to 360 degrees, counter-clockwise as seen from above: at 90 its middle
+    /// is to the left of the body
+    #[arg(long, value_name = "DEGREES", requires = "environment", value_parser = rotation)]
+    pub environment_rotation: Option<f32>,
     /// The picture (PNG)
     #[arg(short, long, value_name = "PNG")]
     pub output: PathBuf,

@@ -51,6 +51,12 @@ pub(super) fn view(text: &str) -> Result<View, String> {
     text.parse::<View>().map_err(|e| e.to_string())
 }
 
+/// Reads a rotation, degrees.
+pub(super) fn rotation(text: &str) -> Result<f32, String> {
+    let degrees = text.parse::<f32>().ok().filter(|degrees| (0.0..=360.0).contains(degrees));
+    degrees.ok_or_else(|| format!("{text:?} is not a number of degrees from 0 to 360"))
+}
+
 /// Reads "WIDTHxHEIGHT", pixels.
 pub(super) fn size(text: &str) -> Result<[u32; 2], String> {
     let side = |t: &str| t.parse::<u32>().ok().filter(|n| (1..=16384).contains(n));
@@ -68,6 +74,8 @@ mod tests {
     fn sizes_and_views_are_read() {
         assert_eq!(size("1280x800"), Ok([1280, 800]));
         assert!(size("0x10").is_err() && size("99999x9").is_err() && size("12").is_err());
+        assert_eq!([rotation("0"), rotation("22.5"), rotation("360")], [Ok(0.0), Ok(22.5), Ok(360.0)]);
+        assert!(["-1", "361", "NaN", "", "90°"].into_iter().all(|text| rotation(text).is_err()));
         assert!(view("front").is_ok() && view("-30,10").is_ok() && view("inside").is_err());
     }
 }

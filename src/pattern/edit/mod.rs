@@ -27,7 +27,7 @@ use crate::geometry::words::{Words, words};
 use crate::pattern::activity::Activity;
 use crate::pattern::{
     AllowanceCorner, Button, Edge, EdgeRef, EdgeShape, Elastic, Fold, GradeRule, Hem, InternalLine, Pattern,
-    Piece, Piping, PlanePose, RulePoint, Seam, SizeRun, SpacePose, Topstitch, Zip, curve,
+    Piece, Piping, PlanePose, RulePoint, Seam, SizeRun, SpacePose, Topstitch, Wrinkle, Zip, curve,
 };
 pub use cutting::nearest_on_edge;
 pub use fastenings::MOST_BUTTONS;
@@ -172,6 +172,8 @@ pub enum PatternEdit {
     SetHem { lines: Vec<TrimLine>, hem: Option<Hem> },
     /// Sew piping in along edges or internal lines, or (None) take it out.
     SetPiping { lines: Vec<TrimLine>, piping: Option<Piping> },
+    /// Raise cloth to a wrinkle along internal lines, or (None) smooth it out.
+    SetWrinkle { lines: Vec<TrimLine>, wrinkle: Option<Wrinkle> },
 
     /// Sew on buttons, each with its buttonhole.
     AddButtons { buttons: Vec<Button> },
@@ -390,6 +392,7 @@ fn carry_out(pattern: &mut Pattern, edit: &PatternEdit) -> Result<Change, Words>
             let what = if piping.is_some() { words!("sew piping in") } else { words!("take piping out") };
             trims::set(pattern, lines, what, |trims| trims.piping = *piping)
         }
+        PatternEdit::SetWrinkle { lines, wrinkle } => trims::set_wrinkle(pattern, lines, *wrinkle),
         PatternEdit::AddButtons { buttons } => fastenings::add_buttons(pattern, buttons),
         PatternEdit::SetButton { id, button } => fastenings::set_button(pattern, *id, button),
         PatternEdit::DeleteButtons { buttons } => fastenings::delete_buttons(pattern, buttons),
@@ -433,7 +436,8 @@ fn pieces_named(edit: &PatternEdit) -> Vec<PieceId> {
         | PatternEdit::SetElastic { lines, .. }
         | PatternEdit::SetTopstitch { lines, .. }
         | PatternEdit::SetHem { lines, .. }
-        | PatternEdit::SetPiping { lines, .. } => lines.iter().map(TrimLine::piece).collect(),
+        | PatternEdit::SetPiping { lines, .. }
+        | PatternEdit::SetWrinkle { lines, .. } => lines.iter().map(TrimLine::piece).collect(),
         _ => Vec::new(),
     }
 }

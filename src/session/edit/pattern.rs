@@ -90,6 +90,7 @@ fn check(edit: &PatternEdit) -> Result<(), Rejection> {
         PatternEdit::SetTopstitch { topstitch, .. } => sound(topstitch.and_then(|stitch| stitch.problem())),
         PatternEdit::SetHem { hem, .. } => sound(hem.and_then(|hem| hem.problem())),
         PatternEdit::SetPiping { piping, .. } => sound(piping.and_then(|piping| piping.problem())),
+        PatternEdit::SetWrinkle { wrinkle, .. } => sound(wrinkle.and_then(|wrinkle| wrinkle.problem())),
         PatternEdit::AddButtons { buttons } => buttons.iter().try_for_each(checks::button),
         PatternEdit::SetButton { button, .. } => checks::button(button),
         PatternEdit::SetZip { zip, .. } => sound(zip.and_then(|zip| zip.problem())),

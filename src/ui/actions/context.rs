@@ -117,6 +117,8 @@ pub struct FrameContext {
     pub recent: Arc<Vec<RecentFile>>,
     /// Display options of body and cloth.
     pub sight: Sight,
+    /// Whether the bar that rotates the environment map is shown.
+    pub rotating: bool,
     /// What the drawer below the panes shows; None when it is closed.
     pub drawer: Option<Drawer>,
     /// Map that the cloth is coloured by.
@@ -183,6 +185,9 @@ impl FrameContext {
             }
             Need::Pins => (self.pins > 0, "There are no pins"),
             Need::Comparison => (self.difference.is_some(), "Nothing is shown beside: compare first"),
+            Need::EnvironmentMap => {
+                (self.sight.environment.is_some(), "No environment map is chosen: choose one first")
+            }
             Need::Selection => (self.selected.is_some() || picked.deletable, "Nothing is selected"),
             Need::PickedPiece => (picked.pieces > 0, "No piece is selected"),
             Need::PickedPieceOrPin => (picked.pieces + picked.pins > 0, "No piece or pin is selected"),
@@ -192,6 +197,7 @@ impl FrameContext {
             Need::Standing => (picked.standing, "No piece that stands round the body is selected"),
             Need::PickedEdge => (picked.edges > 0, "No edge is selected"),
             Need::PickedLine => (picked.edges + picked.lines > 0, "No edge or line is selected"),
+            Need::PickedInnerLine => (picked.lines > 0, "No line inside a piece is selected"),
             Need::Buttons => (picked.buttons, "There is no button"),
             Need::PickedPoint => (picked.points > 0, "No point is selected"),
             Need::PickedSeam => (picked.seams > 0, "No seam is selected"),
@@ -250,7 +256,9 @@ impl FrameContext {
             Action::ToggleWire => self.sight.wire,
             Action::ToggleSheer => self.sight.sheer,
             Action::ToggleXray => self.sight.xray,
-            Action::Light(light) => self.sight.light == light,
+            Action::Light(light) => self.sight.light == light && self.sight.environment.is_none(),
+            Action::EnvironmentMap => self.sight.environment.is_some(),
+            Action::RotateEnvironment => self.rotating,
             Action::BodyLook(look) => self.sight.body_look == look,
             Action::ToggleHistory => self.drawer == Some(Drawer::History),
             Action::ToggleLog => self.drawer == Some(Drawer::Log),

@@ -145,6 +145,7 @@ pub enum Action {
     ToggleTopstitch,
     ToggleHem,
     TogglePiping,
+    ToggleWrinkle,
     ToggleZip,
     ToggleFastened,
     TurnSeam,
@@ -177,6 +178,10 @@ pub enum Action {
     ToggleXray,
     TogglePairs,
     Light(Light),
+    /// Light the scene by an image of the surroundings.
+    EnvironmentMap,
+    /// Show or hide the bar that rotates the environment map.
+    RotateEnvironment,
     BodyLook(BodyLook),
     TogglePanel,
     Show(Panes),

@@ -86,6 +86,8 @@ pub enum Need {
     Pins,
     /// Another garment is shown beside.
     Comparison,
+    /// An environment map lights the scene.
+    EnvironmentMap,
     /// Something that can be deleted is selected.
     Selection,
     /// A piece is selected.
@@ -104,6 +106,8 @@ pub enum Need {
     PickedEdge,
     /// An edge or a line inside a piece is selected.
     PickedLine,
+    /// A line inside a piece is selected.
+    PickedInnerLine,
     /// There is a button.
     Buttons,
     /// A point is selected.

@@ -1,10 +1,10 @@
 //! Display options of body and cloth.
 
-use crate::render::{Light, Look};
+use crate::render::{Harmonics, Light, Look};
 use crate::ui::scenery::body_look::BodyLook;
 
 /// Display options of body and cloth.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Sight {
     /// Draw the edges of the cloth's triangles (wireframe).
     pub wire: bool,
@@ -16,6 +16,8 @@ pub struct Sight {
     pub pairs: bool,
     /// Light of the surroundings.
     pub light: Light,
+    /// Light from all sides out of an environment map, turned as chosen, in place of that of `light`.
+    pub environment: Option<Harmonics>,
     /// How the body is shown.
     pub body_look: BodyLook,
 }
@@ -28,6 +30,7 @@ impl Default for Sight {
             xray: false,
             pairs: true,
             light: Light::Studio,
+            environment: None,
             body_look: BodyLook::Skin,
         }
     }
@@ -36,7 +39,7 @@ impl Default for Sight {
 impl Sight {
     /// `look` with the options of these that the renderer knows.
     pub fn on(self, look: Look) -> Look {
-        let Self { wire, sheer, xray, light, pairs: _, body_look: _ } = self;
-        Look { wire, sheer, xray, light, ..look }
+        let Self { wire, sheer, xray, light, environment, pairs: _, body_look: _ } = self;
+        Look { wire, sheer, xray, light, environment, ..look }
     }
 }

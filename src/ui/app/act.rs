@@ -161,6 +161,7 @@ impl App {
             | Action::ToggleParallel
             | Action::ToggleFreeTurning => self.change_view(ctx, action),
             Action::Compare => self.ask_file(Purpose::Compare),
+            Action::EnvironmentMap => self.ask_file(Purpose::Environment),
             Action::NextPane => self.next_pane(ctx, false),
             Action::PreviousPane => self.next_pane(ctx, true),
             Action::ToggleSnapping => self.snapping = !self.snapping,

@@ -202,6 +202,7 @@ impl App {
             keymap: Arc::clone(&self.preferences.keymap),
             recent: Arc::clone(self.shell.recent.files()),
             sight: self.shell.sight,
+            rotating: self.shell.environment.is_rotated,
             drawer: self.shell.drawer,
             map: self.shell.maps.kind(),
             difference: self.shell.maps.beside().map(|beside| beside.difference),

@@ -15,6 +15,7 @@ use crate::ui::files::posed_motion::PosedMotion;
 use crate::ui::files::{self, PatternImport, PoseFile, Purpose, RawBody};
 use crate::ui::language::{said, say, tr};
 use crate::ui::maps::Opening;
+use crate::ui::scenery::worn::WornFiles;
 use crate::ui::shell::dialogs::{Dialog, NativeDialog};
 use crate::ui::shell::drop_overlay::Dropped;
 
@@ -59,12 +60,9 @@ impl App {
             Purpose::Pose => self.take_pose(path),
             Purpose::Sequence => self.take_sequence(path),
             Purpose::Compare => self.compare_with(ctx, path),
+            Purpose::Environment => self.choose_environment(ctx, path),
             Purpose::Sizes => self.take_sizes(path),
-            Purpose::Export => {
-                let shown = self.shown();
-                files::export(path, shown.snapshot(), &shown.document().pattern, shown.document())
-                    .map(|()| self.wrote(path))
-            }
+            Purpose::Export => self.export(path),
             Purpose::ExportPattern => self.export_pattern(path),
             Purpose::Recording => {
                 let text = self.recording();
@@ -131,6 +129,29 @@ impl App {
         let edits = vec![PatternEdit::PlaceInSpace { placements }];
         self.apply(Command::EditPattern { edits, anew: false });
         self.messages.tell(sentence(&said(&Words::joined(words, ", "))));
+    }
+
+    /// Writes the dressed garment; asks first where files that belong beside it are there already.
+    fn export(&mut self, path: &Path) -> Result<(), String> {
+        let shown = self.shown();
+        let written = files::exported(path, shown.snapshot(), &shown.document().pattern, shown.document())?;
+        let names = files::there_beside(&written.files);
+        if names.is_empty() {
+            return self.write_export(&written);
+        }
+        self.dialog = Some(Dialog::Beside { written: Box::new(written), names });
+        Ok(())
+    }
+
+    pub(in crate::ui) fn write_export(&mut self, written: &WornFiles) -> Result<(), String> {
+        files::write_together(&written.files)?;
+        if let Some((path, _)) = written.files.first() {
+            self.wrote(path);
+        }
+        if !written.left_out.is_empty() {
+            self.messages.tell(written.left_out.join("; "));
+        }
+        Ok(())
     }
 
     pub(in crate::ui) fn export_pattern(&mut self, path: &Path) -> Result<(), String> {
@@ -228,8 +249,9 @@ impl App {
                 Dropped::Pattern => self.file(ctx, Purpose::ImportPattern, &path),
                 Dropped::Body => self.file(ctx, Purpose::ImportBody, &path),
                 Dropped::Image => self.file(ctx, Purpose::Image, &path),
+                Dropped::Environment => self.file(ctx, Purpose::Environment, &path),
                 Dropped::Nothing => self.messages.error(say!(
-                    "{path} is neither a project (.toile), a pattern (.dxf, .svg, .json), a body (.obj, .glb, .gltf) nor an image (.png, .jpg)",
+                    "{path} is neither a project (.toile), a pattern (.dxf, .svg, .json), a body (.obj, .glb, .gltf), an image (.png, .jpg) nor an environment map (.hdr)",
                     path = path.display()
                 )),
             }

@@ -6,6 +6,7 @@ pub(in crate::ui) mod arrange;
 pub(in crate::ui) mod demo;
 pub(in crate::ui) mod drawer;
 pub(in crate::ui) mod dressing;
+pub(in crate::ui) mod environment;
 pub(in crate::ui) mod exchange;
 pub(in crate::ui) mod keyboard;
 pub(in crate::ui) mod marker_page;
@@ -202,6 +203,7 @@ impl App {
         }
         self.preferences_path = Some(path);
         self.live_by_preferences(ctx);
+        self.read_kept_environment(ctx);
     }
 
     /// Lets the session drape on the graphics card if the user wants that, and no recording is written whose hashes it would cost.
@@ -322,6 +324,7 @@ impl App {
         self.carry_selection(&document);
         self.take_comparison();
         self.take_tech_pack();
+        self.take_environment(&ctx);
         self.shell.maps.look(&snapshot, &document.fabrics, self.shell.sight.body_look);
         let now = self.situation(&ctx, &document, &snapshot);
         self.scheme = Scheme::of(self.preferences.theme, ctx.theme());
@@ -476,6 +479,12 @@ impl App {
             Answer::File(purpose, path) => self.file(ctx, purpose, &path),
             Answer::Restore(left) => self.restore(ctx, *left),
             Answer::SaveAs => self.ask_file(Purpose::Save),
+            Answer::Elsewhere(purpose) => self.ask_file(purpose),
+            Answer::Export(written) => {
+                if let Err(words) = self.write_export(&written) {
+                    self.messages.error(words);
+                }
+            }
             Answer::Replace(path) => self.save_over(ctx, &path),
             Answer::Overwrite(path) => {
                 self.on_disk = None;

@@ -11,6 +11,7 @@ use crate::ui::actions::drawer::Drawer;
 use crate::ui::actions::sight::Sight;
 use crate::ui::app::App;
 use crate::ui::app::all_sizes::AllSizes;
+use crate::ui::app::environment::EnvironmentMap;
 use crate::ui::app::marker_page::MarkerPage;
 use crate::ui::app::picture_page::PicturePage;
 use crate::ui::app::reporting::Reporting;
@@ -75,6 +76,8 @@ pub struct Shell {
     pub placing: Placing,
     /// Display options of body and cloth.
     pub sight: Sight,
+    /// The environment map, and the bar that rotates it.
+    pub environment: EnvironmentMap,
     /// First widgets of the toolbar and of the side panel, which get the keyboard focus.
     pub first_tool: Option<egui::Id>,
     pub first_of_panel: Option<egui::Id>,
@@ -134,7 +137,10 @@ impl App {
             Action::ToggleWire => self.shell.sight.wire = !self.shell.sight.wire,
             Action::ToggleSheer => self.shell.sight.sheer = !self.shell.sight.sheer,
             Action::ToggleXray => self.shell.sight.xray = !self.shell.sight.xray,
-            Action::Light(light) => self.shell.sight.light = light,
+            Action::Light(light) => self.choose_light(ctx, light),
+            Action::RotateEnvironment => {
+                self.shell.environment.is_rotated = !self.shell.environment.is_rotated;
+            }
             Action::BodyLook(look) => self.shell.sight.body_look = look,
             Action::TogglePairs => self.shell.sight.pairs = !self.shell.sight.pairs,
             Action::ToggleHistory => self.shell.drawer = toggled(Drawer::History),
@@ -183,6 +189,7 @@ impl App {
         self.picture_ui(ctx, palette);
         self.all_sizes_ui(ctx, palette);
         self.marker_ui(ctx, palette);
+        self.rotation_ui(ctx, asks);
         self.go_on_turning(ctx, palette, status::HEIGHT);
         self.go_on_reporting(ctx, palette, status::HEIGHT);
         drop_overlay::ui(ctx, palette, [self.pattern_pane.area, self.scene_pane.area]);
@@ -213,6 +220,7 @@ impl App {
     pub(in crate::ui) fn live_by_preferences(&mut self, ctx: &egui::Context) {
         self.speak();
         self.use_card();
+        self.light_up();
         theme::choose(ctx, self.preferences.theme);
         ctx.set_zoom_factor(self.preferences.scale.factor());
     }

@@ -5,7 +5,7 @@ pub(in crate::ui) mod posed_motion;
 pub(in crate::ui) mod recent;
 pub(in crate::ui) mod thumbnails;
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use glam::DVec3;
@@ -14,7 +14,6 @@ use crate::body::pose::motion::Clip;
 use crate::body::{Unit, UpAxis, guess_unit, import};
 use crate::geometry::mesh::TriMesh;
 use crate::geometry::words::Words;
-use crate::io::atlas::AtlasLayout;
 use crate::io::body_file;
 use crate::io::pattern_file::PatternFileError;
 use crate::io::pattern_formats::{self, PatternFormat, endings};
@@ -24,6 +23,7 @@ use crate::io::scale::{DrawingUnit, ScaleQuestion};
 use crate::io::{FILE_BYTES, bvh, gltf};
 use crate::marker::{FinishedMarker, MarkerFormat};
 use crate::pattern::Pattern;
+use crate::render::Harmonics;
 use crate::session::project_file::ProjectFileError;
 use crate::session::samples::Sample;
 use crate::session::{
@@ -31,8 +31,8 @@ use crate::session::{
 };
 use crate::sim::Snapshot;
 use crate::ui::language::{said, say, tr};
-use crate::ui::scenery::fabric_textures::USUAL_SIDE;
-use crate::ui::scenery::worn::{self, Worn};
+use crate::ui::scenery::environment::light_of;
+use crate::ui::scenery::worn::{self, Worn, WornFiles, WornOptions};
 
 /// Extensions of the pattern formats that can be written.
 const WRITTEN_ENDINGS: [&str; 4] = {
@@ -87,6 +87,8 @@ pub enum Purpose {
     AllSizes,
     /// Read another project, to compare with.
     Compare,
+    /// Read an image of the surroundings, which lights the scene.
+    Environment,
 }
 
 impl Purpose {
@@ -112,6 +114,7 @@ impl Purpose {
             Self::Marker(_) => "Save the marker",
             Self::AllSizes => "Save the table of all sizes",
             Self::Compare => "Compare with another project",
+            Self::Environment => "Choose an environment map",
         }
     }
 
@@ -135,6 +138,7 @@ impl Purpose {
             Self::Marker(MarkerFormat::Svg) => ("Marker", &["svg"]),
             Self::Marker(MarkerFormat::Dxf) => ("Marker", &["dxf"]),
             Self::AllSizes => ("Table", &["csv"]),
+            Self::Environment => ("Environment map", &["hdr", "png", "jpg", "jpeg"]),
         }
     }
 
@@ -394,26 +398,39 @@ pub fn take_image(path: &Path) -> Result<Command, String> {
     Ok(Command::AddImage { file: Arc::new(file) })
 }
 
-/// Writes the dressed garment of `snapshot` with its textures: as .obj with files beside it, as .glb or USD together with its
-/// body.
-/// `pattern` gives the texture coordinates.
-pub fn export(
+/// Light from all sides out of the image at `path`.
+pub fn read_environment(path: &Path) -> Result<Harmonics, String> {
+    light_of(&read(path)?).map_err(|why| in_words(path, Deed::Read, why))
+}
+
+/// The files of the dressed garment of `snapshot` with its trims and textures: as .obj with files beside it, as .glb or USD
+/// together with its body. `pattern` gives the texture coordinates.
+pub fn exported(
     path: &Path,
     snapshot: &Snapshot,
     pattern: &Pattern,
     document: &Document,
-) -> Result<(), String> {
+) -> Result<WornFiles, String> {
     let Some((garment, cloth)) = snapshot.drawn().filter(|_| snapshot.is_dressed()) else {
         return Err(tr("There is no cloth on the body to be written").to_owned());
     };
     let worn = Worn { garment, cloth, pattern, document };
     let body = snapshot.body.as_ref().map(|b| &b.mesh);
-    let files = worn.files(USUAL_SIDE, AtlasLayout::Pattern, body, path);
-    let files = files.map_err(|e| in_words(path, Deed::Write, e))?;
-    match &files[..] {
+    worn.files(WornOptions::default(), body, path).map_err(|e| in_words(path, Deed::Write, e))
+}
+
+/// Writes files, all or none of them.
+pub fn write_together(files: &[(PathBuf, Vec<u8>)]) -> Result<(), String> {
+    match files {
         [(path, bytes)] => write(path, bytes),
-        _ => whole_file::write_together(&files).map_err(|(path, e)| in_words(&path, Deed::Write, e)),
+        _ => whole_file::write_together(files).map_err(|(path, e)| in_words(&path, Deed::Write, e)),
     }
+}
+
+/// The names of the files beside the first of `files` that are there already and would be lost.
+pub fn there_beside(files: &[(PathBuf, Vec<u8>)]) -> Vec<String> {
+    let others = files.iter().skip(1).filter(|(path, _)| path.exists());
+    others.map(|(path, _)| path.file_name().unwrap_or_default().to_string_lossy().into_owned()).collect()
 }
 
 /// The project of a sample on the mannequin that it is made for.
@@ -433,7 +450,7 @@ pub fn read(path: &Path) -> Result<Vec<u8>, String> {
 
 /// The next version of a file name that does not exist yet: "shirt-2.toile" for "shirt.toile", "shirt-8.toile" for
 /// "shirt-7.toile".
-pub fn next_version(path: &Path) -> std::path::PathBuf {
+pub fn next_version(path: &Path) -> PathBuf {
     let name = stem(path);
     let (base, number) = match name.rsplit_once('-') {
         Some((base, digits)) if !base.is_empty() && digits.len() < 9 => match digits.parse::<u32>() {

@@ -1,5 +1,6 @@
 //! The user's preferences, kept between runs.
 
+pub mod lighting;
 pub(in crate::ui) mod page;
 pub(in crate::ui) mod units;
 
@@ -20,6 +21,7 @@ use crate::ui::language::choice::Language;
 use crate::ui::language::say;
 use crate::ui::look::scheme::Theme;
 use crate::ui::pointer::mouse::Mouse;
+use crate::ui::preferences::lighting::Lighting;
 use crate::ui::preferences::units::LengthUnit;
 
 /// Largest size of a file of preferences, bytes.
@@ -38,6 +40,9 @@ pub struct Preferences {
     /// Theme of the interface.
     #[serde(deserialize_with = "or_default")]
     pub theme: Theme,
+    /// Light of the body pane and of its pictures.
+    #[serde(deserialize_with = "or_default")]
+    pub lighting: Lighting,
     /// Unit in which lengths are shown.
     #[serde(deserialize_with = "or_default")]
     pub unit: LengthUnit,
@@ -242,6 +247,8 @@ pub fn usual_path() -> Option<PathBuf> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::render::Light;
+    use crate::ui::preferences::lighting::Rotation;
 
     #[test]
     fn what_was_written_is_read_and_what_is_broken_is_not() {
@@ -253,6 +260,11 @@ mod tests {
             language: Language(Some("de".to_owned())),
             mouse: Mouse::Blender,
             theme: Theme::Light,
+            lighting: Lighting {
+                light: Light::Evening,
+                environment: Some("/home/me/garden.hdr".into()),
+                rotation: Rotation(90),
+            },
             unit: LengthUnit::Inch,
             paper: Paper::One,
             scale: Scale(150),

@@ -1,8 +1,8 @@
 //! Converts document and cloth to what the renderer draws, with and without a window.
 
 pub mod body_look;
-pub(in crate::ui) mod cords;
 pub(in crate::ui) mod covered;
+pub mod environment;
 pub mod fabric_looks;
 pub mod fabric_textures;
 pub mod front_and_back;

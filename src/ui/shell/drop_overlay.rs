@@ -19,6 +19,8 @@ pub enum Dropped {
     Body,
     /// It is taken as an image.
     Image,
+    /// It becomes the environment map.
+    Environment,
     /// It cannot be read.
     Nothing,
 }
@@ -33,6 +35,7 @@ impl Dropped {
             Some(ending) if is_pattern(ending) => Self::Pattern,
             Some("obj" | "glb" | "gltf") => Self::Body,
             Some("png" | "jpg" | "jpeg") => Self::Image,
+            Some("hdr") => Self::Environment,
             _ => Self::Nothing,
         }
     }
@@ -46,9 +49,13 @@ impl Dropped {
             Self::Pattern => [Some(say!("Lay the pieces of {name} on the table", name)), None],
             Self::Body => [None, Some(say!("{name} becomes the body", name))],
             Self::Image => [Some(say!("Take the image {name} into the project", name)), None],
+            Self::Environment => [None, Some(say!("{name} lights the scene", name))],
             Self::Nothing => [
                 Some(say!("{name}: not a project (.toile) or pattern (.dxf, .svg, .json)", name)),
-                Some(tr("nor a body (.obj, .glb, .gltf) or image (.png, .jpg)").to_owned()),
+                Some(
+                    tr("nor a body (.obj, .glb, .gltf), image (.png, .jpg) or environment map (.hdr)")
+                        .to_owned(),
+                ),
             ],
         }
     }
@@ -107,7 +114,9 @@ mod tests {
             ("d.obj", Dropped::Body),
             ("d.GLB", Dropped::Body),
             ("e.png", Dropped::Image),
+            ("f.HDR", Dropped::Environment),
             ("e.gif", Dropped::Nothing),
+            ("e.exr", Dropped::Nothing),
             ("toile", Dropped::Nothing),
         ] {
             assert_eq!(Dropped::of(Path::new(name)), goes, "{name}");

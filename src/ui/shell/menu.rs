@@ -197,12 +197,13 @@ pub fn selection_ui(ui: &mut egui::Ui, now: &FrameContext, asks: &mut Asks) {
 }
 
 /// What is worked along edges, lines and seams.
-const TRIMS: [Action; 7] = [
+const TRIMS: [Action; 8] = [
     Action::ToggleFold,
     Action::ToggleElastic,
     Action::ToggleTopstitch,
     Action::ToggleHem,
     Action::TogglePiping,
+    Action::ToggleWrinkle,
     Action::ToggleZip,
     Action::ToggleFastened,
 ];
@@ -275,6 +276,7 @@ fn view_ui(ui: &mut egui::Ui, now: &FrameContext, asks: &mut Asks) {
         items(ui, now, asks, &Theme::ALL.map(Action::Theme));
         ui.separator();
         items(ui, now, asks, &Light::ALL.map(Action::Light));
+        items(ui, now, asks, &[Action::EnvironmentMap, Action::RotateEnvironment]);
     });
     ui.menu_button(tr("Mouse"), |ui| items(ui, now, asks, &Mouse::ALL.map(Action::Mouse)));
 }

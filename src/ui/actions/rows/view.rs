@@ -170,4 +170,19 @@ pub const ROWS: &[Row] = &[
     row("View › Theme", Action::Theme(Theme::System), Theme::System.name(), "Follow the desktop")
         .in_demos()
         .on_start_page(),
+    row(
+        "View › Theme",
+        Action::EnvironmentMap,
+        "Environment map…",
+        "Light the scene from all sides by an image of the surroundings (HDRI)",
+    )
+    .in_demos(),
+    row(
+        "View › Theme",
+        Action::RotateEnvironment,
+        "Rotate environment map",
+        "Turn the light of the environment map about the vertical axis",
+    )
+    .needs(&[Need::EnvironmentMap])
+    .in_demos(),
 ];

@@ -1,0 +1,77 @@
+//! The light of the body pane and of its pictures.
+
+use std::path::PathBuf;
+
+use serde::{Deserialize, Serialize};
+
+use super::or_default;
+use crate::render::Light;
+
+/// The light of the body pane and of its pictures.
+#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(default)]
+pub struct Lighting {
+    /// The light; where there is an environment map, its lamp and background.
+    #[serde(deserialize_with = "or_default")]
+    pub light: Light,
+    /// The image that lights the scene from all sides in place of the light's surroundings.
+    #[serde(deserialize_with = "or_default", skip_serializing_if = "has_no_text")]
+    pub environment: Option<PathBuf>,
+    /// Rotation of the environment map.
+    #[serde(deserialize_with = "or_default")]
+    pub rotation: Rotation,
+}
+
+/// Rotation about the vertical axis, degrees, counter-clockwise as seen from above; limited to 0..=360 when it is used.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(transparent)]
+pub struct Rotation(pub u16);
+
+impl Rotation {
+    /// The largest rotation, degrees.
+    pub const MOST: u16 = 360;
+
+    /// The angle in radians.
+    pub fn radians(self) -> f32 {
+        f32::from(self.0.min(Self::MOST)).to_radians()
+    }
+}
+
+/// Whether there is a path that JSON cannot hold: one that is not Unicode. It is left out, as in the list of recent files.
+fn has_no_text(path: &Option<PathBuf>) -> bool {
+    path.as_ref().is_some_and(|path| path.to_str().is_none())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_is_not_understood_costs_nothing_else() {
+        let read = |text: &str| serde_json::from_str::<Lighting>(text).expect("lighting");
+        let environment = Some(PathBuf::from("/a/garden.hdr"));
+        let all = r#"{"light": "evening", "environment": "/a/garden.hdr", "rotation": 90}"#;
+        assert_eq!(
+            read(all),
+            Lighting { light: Light::Evening, environment: environment.clone(), rotation: Rotation(90) }
+        );
+        let newer = r#"{"light": "moon", "environment": "/a/garden.hdr", "rotation": -7, "more": 1}"#;
+        assert_eq!(read(newer), Lighting { environment, ..Lighting::default() });
+        assert_eq!(read("{}"), Lighting::default());
+        for (degrees, radians) in [(0, 0.0), (180, std::f32::consts::PI), (60_000, std::f32::consts::TAU)] {
+            assert!((Rotation(degrees).radians() - radians).abs() < 1e-6, "{degrees}");
+        }
+    }
+
+    #[cfg(unix)]
+    #[test]
+    fn a_name_that_is_no_text_is_left_out() {
+        use std::ffi::OsStr;
+        use std::os::unix::ffi::OsStrExt;
+        let odd = PathBuf::from(OsStr::from_bytes(b"/a/\xff.hdr"));
+        let lighting = Lighting { environment: Some(odd), rotation: Rotation(5), ..Lighting::default() };
+        let text = serde_json::to_string(&lighting).expect("text");
+        let kept: Lighting = serde_json::from_str(&text).expect("lighting");
+        assert_eq!(kept, Lighting { environment: None, ..lighting });
+    }
+}
