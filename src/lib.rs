@@ -9,10 +9,10 @@
 //!
 //! | folder | holds | may use |
 //! | --- | --- | --- |
-//! | `geometry` | ids, curves, meshes and adjacency, sparse factorisation, seeded random numbers; nothing about cloth | nothing of ours |
-//! | `pattern`  | the flat garment: piece, seam, trims (folds, elastic, stitches), buttons and zips, edges cut for sewing, editing that keeps seam lengths and symmetry, grading to sizes, triangulation, problems a person can fix | geometry |
+//! | `geometry` | ids, curves, meshes and adjacency, sparse factorisation, seeded random numbers, words that any language can say; nothing about cloth | nothing of ours |
+//! | `pattern`  | the flat garment: piece, seam, trims (folds, elastic, stitches, wrinkles), buttons and zips, edges cut for sewing, editing that keeps seam lengths and symmetry, grading to sizes, triangulation, problems a person can fix | geometry |
 //! | `body`     | surface (nearest point, ray, walk), import checks, mannequin, skeleton, poses, bones, landmarks, measurements | geometry |
-//! | `cloth`    | the sewn garment as solvers see it: topology and rest shape, moving state; fabrics | pattern, geometry |
+//! | `cloth`    | the sewn garment as solvers see it: topology and rest shape, moving state; fabrics; the shapes of trims on it | pattern, geometry |
 //! | `contact`  | collision of cloth with the body, its bones and itself; edges split where they would cut the body | cloth, body, geometry |
 //! | `relax`    | paper A's relaxation: shape matching, flattening, gravity, friction; no physics (see `drape`) | contact, cloth, body, geometry |
 //! | `wrap`     | paper A: marks, root edges, growth | relax, contact, cloth, body, pattern, geometry |
@@ -26,8 +26,8 @@
 //! | `session`  | the user's work: document, commands, history, recording, replay, project file, recovery; samples | sim and below, place, io, draft |
 //! | `draft`    | garments of our own, drawn from a seed and drafted to the mannequin's measurements: parts, designs, body sizes, the corpus | body, pattern, geometry |
 //! | `io`       | obj, gltf, usd, bvh, pictures; patterns as garmentcode json, dxf with grade rules, svg, pdf: bytes in, checked data out, and back | cloth, body, pattern, geometry |
-//! | `marker`   | all pieces of garments laid out on a width of cloth: nesting, yield and consumption, the files to cut from | io, pattern, geometry |
-//! | `language` | the texts and numbers of window and pages in other languages | nothing of ours |
+//! | `language` | the texts and numbers of window and pages in other languages | geometry |
+//! | `marker`   | all pieces of garments laid out on a width of cloth: nesting, yield and consumption, the files to cut from | io, language, pattern, geometry |
 //! | `pack`     | the tech pack: what a garment maker needs to know, measured, and its pages | session and below, marker, language |
 //! | `render`   | plain buffers in, pixels out: camera, passes, offscreen target | nothing of ours |
 //! | `trust`    | fuzz tests: files damaged at random, and the readers that must withstand them | session and below |

@@ -11,6 +11,7 @@ use crate::body::unit::{Unit, guess_unit};
 use crate::geometry::mesh::TriMesh;
 use crate::geometry::orient;
 use crate::geometry::problem::{Problem, ProblemKind};
+use crate::geometry::words::{Words, decimal, words};
 
 /// Largest absolute value of a coordinate, metres.
 const FARTHEST: f64 = 1e6;
@@ -81,7 +82,7 @@ pub fn import(mut mesh: TriMesh, unit: Unit) -> Imported {
     }
     let mut report = BodyReport::default();
     if mesh.positions.iter().any(|p| !p.is_finite() || p.abs().max_element() > FARTHEST) {
-        let words = format!("a coordinate is not finite or beyond {FARTHEST} m");
+        let words = words!("a coordinate is not finite or beyond {most} m", most = FARTHEST);
         let (kept, notes) = (Vec::new(), Vec::new());
         return Imported { mesh, kept, report, problems: vec![problem(words)], notes };
     }
@@ -170,44 +171,48 @@ fn count(mesh: &TriMesh, report: &mut BodyReport) {
         .count();
 }
 
-fn problem(words: String) -> Problem {
-    Problem { kind: ProblemKind::Body, place: "body".to_owned(), words }
+fn problem(words: Words) -> Problem {
+    Problem { kind: ProblemKind::Body, place: words!("body"), words }
 }
 
 fn problems(mesh: &TriMesh, report: &BodyReport) -> Vec<Problem> {
     let mut words = Vec::new();
     if report.triangles == 0 {
-        words.push("the body has no triangles".to_owned());
+        words.push(words!("the body has no triangles"));
     } else if report.size.max_element() == 0.0 {
-        words.push("all vertices of the body lie in one place".to_owned());
+        words.push(words!("all vertices of the body lie in one place"));
     }
     if report.open_edges > 0 {
         let n = report.open_edges;
-        words.push(format!(
-            "the body is open: {n} edges have only one triangle{}; inside and outside cannot be told apart. Close the holes",
-            where_open(mesh)
+        let [low, high] = where_open(mesh).map(|height| decimal(height, 2));
+        words.push(words!(
+            "the body is open: {n} edges have only one triangle, between {low} m and {high} m of height; inside and outside cannot be told apart. Close the holes",
+            n,
+            low,
+            high
         ));
     }
     if report.non_manifold_edges > 0 {
         let n = report.non_manifold_edges;
-        words.push(format!("the body is not manifold: {n} edges have three or more triangles"));
+        words.push(words!("the body is not manifold: {n} edges have three or more triangles", n));
     }
     if report.misoriented_edges > 0 {
         let n = report.misoriented_edges;
-        words.push(format!("the body has no outside: at {n} edges its triangles cannot be turned to agree"));
+        words
+            .push(words!("the body has no outside: at {n} edges its triangles cannot be turned to agree", n));
     }
     if words.is_empty() && report.volume <= 1e-12 * report.size.max_element().powi(3) {
-        words.push("the body encloses no volume".to_owned());
+        words.push(words!("the body encloses no volume"));
     }
     words.into_iter().map(problem).collect()
 }
 
-/// The range of heights in which border edges are, as text.
-fn where_open(mesh: &TriMesh) -> String {
+/// The range of heights in which border edges are, metres.
+fn where_open(mesh: &TriMesh) -> [f64; 2] {
     let heights =
         orient::open_edges(&mesh.triangles).into_iter().flatten().map(|v| mesh.positions[v as usize].y);
     let (low, high) = heights.fold((f64::MAX, f64::MIN), |(lo, hi), y| (lo.min(y), hi.max(y)));
-    format!(", between {low:.2} m and {high:.2} m of height")
+    [low, high]
 }
 
 fn notes(report: &BodyReport, unit: Unit) -> Vec<String> {

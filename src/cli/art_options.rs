@@ -76,7 +76,7 @@ impl ArtOptions {
 }
 
 fn apply(session: &mut Session, command: Command) -> Result<(), Failure> {
-    session.apply_alone(command).map(drop).map_err(|why| Failure::Usage(why.0))
+    session.apply_alone(command).map(drop).map_err(|why| Failure::Usage(why.0.into()))
 }
 
 /// Takes the image of a file into the document, unless it is there; its id.

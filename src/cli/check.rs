@@ -10,6 +10,7 @@ use crate::cli::input::{self, Content};
 use crate::cli::output;
 use crate::cli::report::PairLengths;
 use crate::cloth;
+use crate::geometry::words::{Words, words};
 use crate::pattern::{Problem, ProblemKind};
 use crate::session::{Project, body};
 
@@ -60,8 +61,8 @@ fn of_project(project: &Project, with_body: bool) -> Findings {
         match body::surface_of(&document.body) {
             Ok(surface) => marks = PairLengths::all(document, &surface),
             Err(why) => {
-                let place = document.body.name().to_owned();
-                problems.push(Problem { kind: ProblemKind::Body, place, words: why.to_string() });
+                let place = Words::plain(document.body.name());
+                problems.push(Problem { kind: ProblemKind::Body, place, words: why.0 });
             }
         }
     }
@@ -81,8 +82,12 @@ fn lonely_marks(project: &Project) -> Option<Problem> {
     let (cloth, body) = (marks.cloth.len(), marks.body.len());
     (cloth != body).then(|| Problem {
         kind: ProblemKind::Mark,
-        place: format!("mark {}", cloth.min(body) + 1),
-        words: format!("{cloth} strokes on the cloth and {body} on the body: the last have no partner"),
+        place: words!("mark {n}", n = cloth.min(body) + 1),
+        words: words!(
+            "{cloth} strokes on the cloth and {body} on the body: the last have no partner",
+            cloth,
+            body
+        ),
     })
 }
 

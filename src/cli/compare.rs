@@ -13,6 +13,7 @@ use crate::cli::fit::{Pictures, column, dressed, kinds};
 use crate::cli::{input, interrupt, output, run};
 use crate::fit::{Change, Map, MapKind, Matching, girths};
 use crate::geometry::ids::PieceId;
+use crate::geometry::words::Words;
 use crate::io::words::quoted;
 use crate::render::{Legend, Palette, png};
 use crate::session::Outfit;
@@ -32,7 +33,7 @@ struct Figures {
     maps: Vec<MapFigures>,
     /// Why pictures were left out; None when they were drawn.
     #[serde(skip_serializing_if = "Option::is_none")]
-    pictures_left_out: Option<String>,
+    pictures_left_out: Option<Words>,
 }
 
 /// Area of one draped piece, m².

@@ -25,9 +25,9 @@ pub fn export(arguments: &Export) -> Result<(), Failure> {
         );
         return Err(Failure::Usage(words));
     }
-    if of_pattern.is_some() && (arguments.textures.textures.is_some() || !arguments.cloth.is_empty()) {
+    if of_pattern.is_some() && (arguments.textures.is_asked() || !arguments.cloth.is_empty()) {
         let words = format!(
-            "--textures, fabrics, colours and images are of dressed cloth, as {}",
+            "--textures, --no-trims, fabrics, colours and images are of dressed cloth, as {}",
             any_of(worn::ENDINGS)
         );
         return Err(Failure::Usage(words));
@@ -58,10 +58,13 @@ pub fn export(arguments: &Export) -> Result<(), Failure> {
     };
     let worn = Worn { garment, cloth, pattern: &source.pattern, document: session.document() };
     // The texture coordinates of an OBJ without textures are metres of the pattern.
-    let side = arguments.textures.textures.unwrap_or(if ending == "obj" { 0 } else { USUAL_SIDE });
+    let options = arguments.textures.worn(if ending == "obj" { 0 } else { USUAL_SIDE });
     let body = snapshot.body.as_ref().map(|b| &b.mesh);
-    let files = worn.files(side, arguments.textures.atlas, body, &arguments.output);
-    match &files.map_err(Failure::Limit)?[..] {
+    let written = worn.files(options, body, &arguments.output).map_err(Failure::Limit)?;
+    for line in &written.left_out {
+        output::complain(&format!("{}: {line}", arguments.output.display()));
+    }
+    match &written.files[..] {
         [(path, bytes)] => output::write(path, bytes),
         files => output::write_together(files),
     }

@@ -13,9 +13,10 @@ use crate::cloth::{ClothState, Garment};
 use crate::fit::maps::{Histogram, MapStats, PieceStats};
 use crate::fit::{Map, MapKind, MapReader};
 use crate::geometry::ids::PieceId;
+use crate::geometry::words::Words;
 use crate::io::words::quoted;
 use crate::language::{Table, shown_in};
-use crate::pack::NO_ADAPTER;
+use crate::pack::no_adapter;
 use crate::render::{Legend, png};
 use crate::session::{Outfit, Session};
 use crate::ui::fit_page::FitPage;
@@ -31,7 +32,7 @@ struct Figures {
     maps: Vec<MapFigures>,
     /// Why pictures were left out; None when they were drawn.
     #[serde(skip_serializing_if = "Option::is_none")]
-    pictures_left_out: Option<String>,
+    pictures_left_out: Option<Words>,
 }
 
 /// A map; all values are in its unit.
@@ -220,7 +221,7 @@ pub struct Pictures {
     /// None where there is no graphics adapter.
     pub artist: Option<Artist>,
     /// Why pictures are left out, in the words of the pages; None where they are drawn.
-    pub left_out: Option<String>,
+    pub left_out: Option<Words>,
 }
 
 impl Pictures {
@@ -230,7 +231,7 @@ impl Pictures {
             Ok(artist) => Ok(Self { artist: Some(artist), left_out: None }),
             Err(Failure::Graphics(words)) => {
                 output::complain(&format!("pictures left out: {words}"));
-                Ok(Self { artist: None, left_out: Some(NO_ADAPTER.to_owned()) })
+                Ok(Self { artist: None, left_out: Some(no_adapter()) })
             }
             Err(failure) => Err(failure),
         }

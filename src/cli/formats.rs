@@ -22,6 +22,7 @@ use crate::io::usd::UsdScene;
 use crate::io::{gltf, obj};
 use crate::pattern::Pattern;
 use crate::session::{AnimatedFile, Animations};
+use crate::ui::scenery::worn::packed_image;
 
 /// Reads a pattern file of one of the known formats. Notes about it are printed.
 pub fn pattern(path: &Path, bytes: &[u8], scale: Option<DrawingUnit>) -> Result<Pattern, Failure> {
@@ -145,7 +146,7 @@ pub fn garment_obj(garment: &Garment, cloth: &ClothState, pattern: &Pattern) -> 
     obj::garment(garment, cloth, pattern).into_bytes()
 }
 
-/// Dressed cloth and its body as animated binary glTF.
+/// Dressed cloth with its trims and its body as animated binary glTF.
 pub fn sequence_glb(
     dressed: Dressed<'_>,
     body: &TriMesh,
@@ -164,6 +165,6 @@ pub fn sequence_usdz(
     fps: f64,
     colours: &Colours,
 ) -> Result<Vec<u8>, Failure> {
-    let scene = UsdScene::moving(dressed, body, frames, fps, colours);
+    let scene = UsdScene::moving(dressed, body, frames, fps, colours, packed_image);
     scene.and_then(|scene| scene.package()).map_err(|e| Failure::Limit(e.to_string()))
 }

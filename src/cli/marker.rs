@@ -17,7 +17,7 @@ pub fn marker(arguments: &Marker) -> Result<(), Failure> {
     let pattern = &input.project.document.pattern;
     let failure = |error: MarkerError| match error {
         MarkerError::TooMany(_) => Failure::Limit(error.to_string()),
-        MarkerError::Number(words) => Failure::Usage(words),
+        MarkerError::Number(words) => Failure::Usage(words.into()),
         error => Failure::input(&arguments.project, error),
     };
     let order = Order {

@@ -53,7 +53,7 @@ fn of_file(path: &Path, arguments: &Measure) -> Result<Option<Vec<Reading>>, Fai
     Ok(match input::content(path, arguments.body_file, None)? {
         Content::Body(body) if body.is_usable() => readings(&body.mesh, None),
         Content::Body(body) => {
-            let words: Vec<String> = body.problems.iter().map(|p| p.words.clone()).collect();
+            let words: Vec<&str> = body.problems.iter().map(|p| p.words.as_str()).collect();
             return Err(Failure::input(path, words.join("; ")));
         }
         Content::Project(project) => {

@@ -13,6 +13,7 @@ use crate::cli::seconds::{Begun, Seconds};
 use crate::cli::verdict::{FILE_NAME, PICTURE_NAME, Verdict};
 use crate::cli::{formats, interrupt, output, run};
 use crate::fit;
+use crate::geometry::words::words;
 use crate::pattern::{Problem, ProblemKind};
 use crate::repose::Outcome;
 use crate::session::recording::Hex;
@@ -228,8 +229,8 @@ fn measured(snapshot: &Snapshot) -> Result<Measured, Failure> {
 }
 
 fn still_moving() -> Fault {
-    let (kind, place) = (ProblemKind::Dressing, "garment".to_owned());
-    let problem = Problem { kind, place, words: "it still moves".to_owned() };
+    let (kind, place) = (ProblemKind::Dressing, words!("garment"));
+    let problem = Problem { kind, place, words: words!("it still moves") };
     Fault { problem, marks: Vec::new() }
 }
 

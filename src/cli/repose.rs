@@ -22,6 +22,10 @@ pub fn repose(arguments: &Repose) -> Result<(), Failure> {
     if arguments.usd {
         return Err(Failure::Usage("--usd is of frames: give --sequence or --motion".to_owned()));
     }
+    if arguments.textures.is_asked() {
+        let words = "--textures and --no-trims are of frames: give --sequence or --motion";
+        return Err(Failure::Usage(words.to_owned()));
+    }
     let start = Begun::now();
     let input = input::load(&arguments.project, &InputOptions::default())?;
     let poses = poses(arguments, &input.project.document.body)?;

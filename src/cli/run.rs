@@ -60,7 +60,7 @@ pub fn opened(project: Project, path: &Path) -> Result<Session, Failure> {
 /// Takes the colourway, fabric, colour, print and images that `options` name.
 pub fn choose_cloth(session: &mut Session, options: &ClothOptions) -> Result<(), Failure> {
     let ClothOptions { colourway, fabric, colour, print, art } = options;
-    let mut choose = |command| session.apply_alone(command).map_err(|why| Failure::Usage(why.0));
+    let mut choose = |command| session.apply_alone(command).map_err(|why| Failure::Usage(why.0.into()));
     if let Some(name) = colourway.clone() {
         choose(Command::WearColourway { name })?;
     }
@@ -70,7 +70,9 @@ pub fn choose_cloth(session: &mut Session, options: &ClothOptions) -> Result<(),
     if colour.is_some() || print.is_some() {
         let all = session.document().dyes.all;
         let dye = Dye { colour: colour.or(all.colour), print: print.or(all.print), image: all.image };
-        session.apply_alone(Command::SetDye { piece: None, dye }).map_err(|why| Failure::Usage(why.0))?;
+        session
+            .apply_alone(Command::SetDye { piece: None, dye })
+            .map_err(|why| Failure::Usage(why.0.into()))?;
     }
     art.choose(session)
 }
@@ -78,7 +80,7 @@ pub fn choose_cloth(session: &mut Session, options: &ClothOptions) -> Result<(),
 /// The simulation of a session that runs inline.
 pub fn simulation(session: &mut Session) -> Result<&mut Simulation, Failure> {
     let words = "the simulation does not run inline".to_owned();
-    session.runner().simulation().ok_or(Failure::Internal(words))
+    session.runner().simulation().ok_or(Failure::Internal(words.into()))
 }
 
 /// The graphics card to drape any cloth on.
@@ -123,7 +125,7 @@ pub fn to_rest(session: &mut Session, max_ticks: u64, seconds: &mut Seconds) -> 
     output::progress("");
     for notice in session.update() {
         if let Notice::Failed { words, .. } = notice {
-            return Err(Failure::Internal(words));
+            return Err(Failure::Internal(words.into()));
         }
     }
     Ok(())

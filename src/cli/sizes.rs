@@ -10,6 +10,7 @@ use crate::cli::failure::Failure;
 use crate::cli::fit::{Pictures, dressed};
 use crate::cli::size_report::SizeReport;
 use crate::cli::{files, input, interrupt, output, run};
+use crate::geometry::words::Words;
 use crate::io::sizes::{self, SizesError};
 use crate::pattern::Pattern;
 use crate::pattern::grading::graded;
@@ -60,7 +61,7 @@ fn chosen(pattern: &Pattern, arguments: &Sizes) -> Result<Vec<String>, Failure> 
     }
     let numbers = arguments.only.iter().map(|name| pattern.sizes.number(name));
     let numbers: Vec<usize> =
-        numbers.collect::<Result<_, String>>().map_err(|why| Failure::input(&arguments.project, why))?;
+        numbers.collect::<Result<_, _>>().map_err(|why| Failure::input(&arguments.project, why))?;
     let is_chosen = |i: &usize| numbers.is_empty() || numbers.contains(i);
     Ok((0..pattern.sizes.len()).filter(is_chosen).map(|i| pattern.sizes.names[i].clone()).collect())
 }
@@ -100,10 +101,10 @@ fn in_size(
     let saved = folder.join("dressed.toile");
     match dress_one(&arguments.project, folder, &dress_arguments(arguments, name, folder, &saved)) {
         Ok(Done { verdict, .. }) => {
-            size.take(verdict.triangles(), verdict.strain_p99(), verdict.failed_check())
+            size.take(verdict.triangles(), verdict.strain_p99(), verdict.failed_check().map(Words::plain))
         }
         Err(failure @ (Failure::Input { .. } | Failure::Limit(_))) => {
-            size.why = Some(failure.to_string());
+            size.why = Some(Words::plain(failure.to_string()));
             return Ok((size, None));
         }
         Err(failure) => return Err(failure),

@@ -4,6 +4,7 @@ use crate::cli::arguments::{InputOptions, TechPack};
 use crate::cli::failure::Failure;
 use crate::cli::fit::Pictures as Drawing;
 use crate::cli::{input, interrupt, language, output, run};
+use crate::geometry::words::words;
 use crate::language::shown_in;
 use crate::marker::MarkerError;
 use crate::marker::nest::Effort;
@@ -26,7 +27,7 @@ pub fn techpack(arguments: &TechPack) -> Result<(), Failure> {
     let wish = Wish { width: arguments.width, nap: arguments.nap, effort };
     let source = Source { name: &input.name, document, outfit: outfit.as_ref() };
     let pack = Pack::of(source, &wish).map_err(|error| match error {
-        MarkerError::Number(words) => Failure::Usage(words),
+        MarkerError::Number(words) => Failure::Usage(words.into()),
         error => Failure::input(&arguments.project, error),
     })?;
     interrupt::check()?;
@@ -49,10 +50,10 @@ pub fn techpack(arguments: &TechPack) -> Result<(), Failure> {
 /// The pictures, or why there are none.
 fn pictures(arguments: &TechPack, session: &Session, is_dressed: bool) -> Result<Pictures, Failure> {
     if !is_dressed {
-        return Ok(Pictures::LeftOut("it is not dressed".to_owned()));
+        return Ok(Pictures::LeftOut(words!("it is not dressed")));
     }
     if arguments.no_picture {
-        return Ok(Pictures::LeftOut("they were not wanted".to_owned()));
+        return Ok(Pictures::LeftOut(words!("they were not wanted")));
     }
     let Drawing { artist, left_out } = Drawing::new()?;
     match artist {

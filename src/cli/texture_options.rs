@@ -1,10 +1,11 @@
-//! Command line options of textures.
+//! Command line options of what is written with dressed cloth: its textures and trims.
 
 use clap::Args;
 
 use crate::io::atlas::AtlasLayout;
+use crate::ui::scenery::worn::WornOptions;
 
-/// Options of textures.
+/// Options of textures and trims.
 #[derive(Clone, Copy, Debug, Default, Args)]
 pub struct TextureOptions {
     /// Width and height in pixels of the textures with colours, prints and pictures, 16 to 8192; 0: colours alone. If left out,
@@ -15,6 +16,22 @@ pub struct TextureOptions {
     /// packed (all in one, as large as fits) or pieces (each fills one of its own)
     #[arg(long, value_name = "pattern|packed|pieces", default_value = "pattern")]
     pub atlas: AtlasLayout,
+    /// Leaves buttons, piping, stitches, zips and the layers of hems out: the cloth alone
+    #[arg(long)]
+    pub no_trims: bool,
+}
+
+impl TextureOptions {
+    /// Whether any of them is given that would do nothing elsewhere.
+    pub fn is_asked(&self) -> bool {
+        self.textures.is_some() || self.no_trims
+    }
+
+    /// What they ask for; textures have `usual` pixels each way where none are given.
+    pub fn worn(&self, usual: u32) -> WornOptions {
+        let side = self.textures.unwrap_or(usual);
+        WornOptions { side, layout: self.atlas, trims: !self.no_trims }
+    }
 }
 
 fn side(text: &str) -> Result<u32, String> {

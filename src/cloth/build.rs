@@ -9,6 +9,7 @@ use crate::cloth::trims::ClothPoint;
 use crate::cloth::{Corner, Garment, GarmentTrims};
 use crate::geometry::adjacency::Adjacency;
 use crate::geometry::ids::{PieceId, SeamId};
+use crate::geometry::words::words;
 use crate::pattern::sampling::sampling;
 use crate::pattern::triangulate::Meshes;
 use crate::pattern::{CutPattern, EdgeRef, EdgeSeam, Pattern, Piece, PieceMesh, Problem, ProblemKind};
@@ -40,8 +41,8 @@ fn buttons(pattern: &Pattern, garment: &Garment, problems: &mut Vec<Problem>) ->
             [Some(_), Some(_)] => {}
             _ => problems.push(Problem {
                 kind: ProblemKind::Fastening,
-                place: id.to_string(),
-                words: "it or its buttonhole is not on the cloth; move it on to a piece".to_owned(),
+                place: (*id).into(),
+                words: words!("it or its buttonhole is not on the cloth; move it on to a piece"),
             }),
         }
     }
@@ -181,8 +182,7 @@ fn report_twisted(pattern: &Pattern, garment: &Garment, problems: &mut Vec<Probl
             problems.push(Problem {
                 kind: ProblemKind::TwistedSeam,
                 place: crate::pattern::naming::seam_place(pattern, *id),
-                words: "it joins the front of one piece to the back of the other; reverse the seam"
-                    .to_owned(),
+                words: words!("it joins the front of one piece to the back of the other; reverse the seam"),
             });
         }
     }

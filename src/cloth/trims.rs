@@ -1,10 +1,11 @@
-//! Trims of the sewn garment along edges of its mesh: folds, elastic, buttons, hems and piping.
+//! Trims of the sewn garment along edges of its mesh: folds, elastic, buttons, hems, piping and wrinkles.
 
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use glam::DVec2;
 
+use crate::cloth::wrinkles::{Bend, bends};
 use crate::geometry::ids::PieceId;
 use crate::geometry::polygon::distance_to_segment;
 use crate::pattern::{CutPattern, Elastic, Fold, Piece, PieceMesh, Piping, Trims};
@@ -22,6 +23,8 @@ pub struct GarmentTrims {
     pub hemmed: Vec<u32>,
     /// Edges along which piping is sewn in, with its radius, metres. On a seam each side that names it has edges of its own.
     pub piped: Vec<Along<f64>>,
+    /// Edges in wrinkles.
+    pub wrinkles: Vec<Along<Bend>>,
 }
 
 /// A point of the flat cloth, by flat corners, so that it holds for open pieces too.
@@ -68,6 +71,8 @@ impl GarmentTrims {
                 let worked = piece.lines[link.line].edges[link.edge].trims;
                 trims.put(worked, link.ends.map(|v| first + v));
             }
+            let bends = bends(piece, mesh).into_iter();
+            trims.wrinkles.extend(bends.map(|(ends, what)| Along { corners: ends.map(|v| first + v), what }));
         }
         trims
     }
@@ -93,6 +98,7 @@ impl GarmentTrims {
             hemmed: self.hemmed.iter().map(|&c| place[c as usize]).collect(),
             buttons: self.buttons.iter().map(|ends| ends.map(moved)).collect(),
             piped: renumbered(&self.piped, place),
+            wrinkles: renumbered(&self.wrinkles, place),
         }
     }
 }

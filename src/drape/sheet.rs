@@ -3,6 +3,7 @@
 use glam::{DMat2, DVec2};
 
 use crate::geometry::adjacency::{Adjacency, NONE};
+use crate::geometry::words::{Words, words};
 
 /// Rest triangles with less than this share of the mean area are rejected as degenerate.
 const LEAST_AREA: f64 = 1e-8;
@@ -27,21 +28,37 @@ pub struct Sheet {
 }
 
 /// Why triangles do not form a sheet.
-#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[derive(Clone, Debug, PartialEq, Eq)]
 pub enum SheetError {
     /// There is no triangle, or the number of rest triangles differs.
-    #[error("there is no triangle")]
     Empty,
     /// A corner refers to a vertex that does not exist, or its rest position is not finite.
-    #[error("triangle {0} (from 0) has a corner that is missing or not finite")]
     Corner(usize),
     /// The rest triangle has no area.
-    #[error("triangle {0} (from 0) has no area in its rest shape")]
     Area(usize),
     /// A vertex belongs to no triangle.
-    #[error("vertex {0} (from 0) belongs to no triangle")]
     Lonely(usize),
 }
+
+impl SheetError {
+    /// The error in words; triangles and vertices are counted from 0.
+    pub fn words(&self) -> Words {
+        match *self {
+            Self::Empty => words!("there is no triangle"),
+            Self::Corner(n) => words!("triangle {n} (from 0) has a corner that is missing or not finite", n),
+            Self::Area(n) => words!("triangle {n} (from 0) has no area in its rest shape", n),
+            Self::Lonely(n) => words!("vertex {n} (from 0) belongs to no triangle", n),
+        }
+    }
+}
+
+impl std::fmt::Display for SheetError {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.write_str(&self.words())
+    }
+}
+
+impl std::error::Error for SheetError {}
 
 impl Sheet {
     /// A sheet over vertices `0..vertices`. Rest triangles given clockwise are mirrored in x.

@@ -10,6 +10,7 @@ use crate::fit::girth::girths;
 use crate::fit::laid::Laid;
 use crate::fit::on_body::BodyIndex;
 use crate::fit::shape::quantile;
+use crate::geometry::words::{Words, decimal, words};
 
 /// Strain above which the cause of an edge is determined.
 pub const STRAINED: f64 = 0.02;
@@ -50,11 +51,17 @@ pub struct Smaller {
     pub pattern: f64,
 }
 
-impl std::fmt::Display for Smaller {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+impl Smaller {
+    /// It in words.
+    pub fn words(&self) -> Words {
         let [body, pattern] = [self.body, self.pattern].map(|metres| metres * 100.0);
-        let (by, place) = (body - pattern, &self.place);
-        write!(f, "{by:.1} cm smaller than the body round the {place} ({pattern:.1} for {body:.1} cm)")
+        words!(
+            "the pattern is {cm} cm smaller than the body round the {place} ({pattern} for {body} cm)",
+            cm = decimal(body - pattern, 1),
+            place = Words::listed(&*self.place),
+            pattern = decimal(pattern, 1),
+            body = decimal(body, 1)
+        )
     }
 }
 

@@ -8,6 +8,7 @@ use crate::cloth::{FlatPiece, FlatPlace, Garment};
 use crate::fit::maps::{Map, Worn};
 use crate::fit::shape::quantile;
 use crate::geometry::ids::PieceId;
+use crate::geometry::words::{Words, within_quotes, words};
 use crate::pattern::Pattern;
 
 /// Barycentric weights below this count as zero.
@@ -18,7 +19,7 @@ const TOLERANCE: f64 = 1e-4;
 /// Why two garments cannot be compared, in words.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("{0}")]
-pub struct Unlike(pub String);
+pub struct Unlike(pub Words);
 
 /// For each flat corner of the second garment the corresponding place on the first: at the same relative position in the bounding
 /// box of its piece, so meshes and sizes may differ.
@@ -127,25 +128,27 @@ fn pairs(first: &Garment, second: &Garment) -> Result<Vec<(PieceId, PieceId)>, U
         pieces
     };
     let (one, other) = (sorted(first), sorted(second));
-    let lacking = |has: &[(String, PieceId)], lacks: &[(String, PieceId)], which: &str| {
+    let lacking = |has: &[(String, PieceId)], lacks: &[(String, PieceId)]| {
         let missing: Vec<String> = has
             .iter()
             .filter(|(name, _)| !lacks.iter().any(|(known, _)| known == name))
             .map(|(name, _)| format!("{name:?}"))
             .collect();
-        (!missing.is_empty()).then(|| format!("the {which} has no piece {}", missing.join(", ")))
+        (!missing.is_empty()).then(|| missing.join(", "))
     };
-    let words = [lacking(&one, &other, "second"), lacking(&other, &one, "first")];
-    let words: Vec<String> = words.into_iter().flatten().collect();
+    let of_second = lacking(&one, &other).map(|names| words!("the second has no piece {names}", names));
+    let of_first = lacking(&other, &one).map(|names| words!("the first has no piece {names}", names));
+    let words: Vec<Words> = of_second.into_iter().chain(of_first).collect();
     if !words.is_empty() {
-        return Err(Unlike(words.join(", ")));
+        return Err(Unlike(Words::joined(words, ", ")));
     }
     let twice =
         |pieces: &[(String, PieceId)]| pieces.windows(2).find(|w| w[0].0 == w[1].0).map(|w| w[0].0.clone());
     match twice(&one).or(twice(&other)) {
-        Some(name) => {
-            Err(Unlike(format!("several pieces are called {name:?}: which is which cannot be told")))
-        }
+        Some(name) => Err(Unlike(words!(
+            "several pieces are called \"{name}\": which is which cannot be told",
+            name = within_quotes(&name)
+        ))),
         None => Ok(one.into_iter().zip(other).map(|((_, a), (_, b))| (a, b)).collect()),
     }
 }

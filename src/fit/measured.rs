@@ -12,6 +12,7 @@ use crate::fit::shape;
 use crate::fit::verdict::verdict;
 use crate::geometry::crossings::self_crossings;
 use crate::geometry::ids::{PieceId, SeamId};
+use crate::geometry::words::{Words, words};
 use crate::pattern::{Pattern, Seam};
 
 /// Largest gap of a closed seam, metres.
@@ -86,16 +87,18 @@ fn is_wide_open(seam: &Seam) -> bool {
 }
 
 /// Names such as "seam 2 (front and back)" of the pattern's seams that are open anywhere.
-fn open_seams(pattern: &Pattern, garment: &Garment, state: &ClothState) -> Vec<String> {
+fn open_seams(pattern: &Pattern, garment: &Garment, state: &ClothState) -> Vec<Words> {
     let holds = |pairs: &[[u32; 2]]| widest_gap(garment, state, pairs).is_some_and(|gap| gap <= CLOSED);
     let is_closed = |id: &SeamId| {
         let mut parts = garment.seam_pairs.iter().filter(|(of, _)| of == id).peekable();
         parts.peek().is_some() && parts.all(|(_, pairs)| holds(pairs))
     };
-    let name = |id: PieceId| pattern.pieces.get(&id).map_or_else(|| id.to_string(), |p| p.name.clone());
+    let name = |id: PieceId| pattern.pieces.get(&id).map_or_else(|| id.into(), |p| Words::plain(&*p.name));
     let open = pattern.seams.iter().filter(|(id, seam)| !is_wide_open(seam) && !is_closed(id));
-    open.map(|(id, seam)| format!("{id} ({} and {})", name(seam.sides[0].piece), name(seam.sides[1].piece)))
-        .collect()
+    open.map(|(&seam, Seam { sides: [one, other], .. })| {
+        words!("{seam} ({one} and {other})", seam, one = name(one.piece), other = name(other.piece))
+    })
+    .collect()
 }
 
 /// Largest gap of a seam, metres; None when one of its points has no position.

@@ -7,6 +7,7 @@ use crate::fit::fastenings::Fastenings;
 use crate::fit::on_body::{Clearance, Penetration};
 use crate::fit::openings::Opening;
 use crate::fit::shape::{PieceChange, Strain};
+use crate::geometry::words::Words;
 
 /// All measurements of a garment, over the triangles that have positions in space.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -33,7 +34,7 @@ pub struct Report {
     pub seams: Seams,
     /// Open seams, by number and pieces.
     #[serde(default)]
-    pub open_seams: Vec<String>,
+    pub open_seams: Vec<Words>,
     /// Buttons and zips.
     #[serde(default, skip_serializing_if = "Fastenings::is_none")]
     pub fastenings: Fastenings,

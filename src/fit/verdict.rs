@@ -3,6 +3,7 @@
 use crate::fit::report::Report;
 use crate::fit::spots::Spot;
 use crate::geometry::problem::{Problem, ProblemKind};
+use crate::geometry::words::{Words, decimal, words};
 
 /// Strain (99th percentile, gathers left out) above which the garment does not fit.
 const MOST_STRAIN: f64 = 0.25;
@@ -36,12 +37,17 @@ pub fn faults(report: &Report, draped: bool) -> Vec<(Problem, Spot)> {
     faults.0
 }
 
+/// The widest gap, millimetres, in words.
+fn widest(gap: f64) -> Words {
+    words!("the widest gap is {mm} mm", mm = decimal(gap, 1))
+}
+
 #[derive(Default)]
 struct Faults(Vec<(Problem, Spot)>);
 
 impl Faults {
-    fn tell(&mut self, spot: Spot, place: impl Into<String>, words: String) {
-        let problem = Problem { kind: ProblemKind::Dressing, place: place.into(), words };
+    fn tell(&mut self, spot: Spot, place: Words, words: Words) {
+        let problem = Problem { kind: ProblemKind::Dressing, place, words };
         self.0.push((problem, spot));
     }
 
@@ -50,7 +56,8 @@ impl Faults {
         let smaller = report.strain_causes.smaller.first();
         let smaller = smaller.filter(|smaller| smaller.body - smaller.pattern > TOO_SMALL);
         if let (Some(smaller), Some((problem, _))) = (smaller, self.0.last_mut()) {
-            problem.words += &format!("; the pattern is {smaller}");
+            let words = std::mem::take(&mut problem.words);
+            problem.words = words.and("; ", smaller.words());
         }
     }
 
@@ -59,24 +66,25 @@ impl Faults {
             let n = report.not_finite_vertices;
             self.tell(
                 Spot::Nowhere,
-                "garment",
-                format!("{n} vertices have no finite position: the simulation broke"),
+                words!("garment"),
+                words!("{n} vertices have no finite position: the simulation broke", n),
             );
         }
         if report.triangles == 0 {
             self.tell(
                 Spot::Nowhere,
-                "garment",
-                "no cloth lies on the body: the wrap found no pair of marks to begin with".to_owned(),
+                words!("garment"),
+                words!("no cloth lies on the body: the wrap found no pair of marks to begin with"),
             );
             return;
         }
         for (i, piece) in report.pieces.iter().enumerate().filter(|(_, p)| p.missing_triangles > 0) {
-            let place = format!("piece {}", piece.name);
+            let place = words!("piece {name}", name = piece.name);
             let words = match piece.triangles {
-                0 => "it still lies in the pattern plane: sew it to the others or give it a pair of marks"
-                    .to_owned(),
-                _ => format!("{} of its triangles never reached the body", piece.missing_triangles),
+                0 => words!(
+                    "it still lies in the pattern plane: sew it to the others or give it a pair of marks"
+                ),
+                _ => words!("{n} of its triangles never reached the body", n = piece.missing_triangles),
             };
             self.tell(Spot::Piece(i), place, words);
         }
@@ -86,25 +94,26 @@ impl Faults {
         let seams = &report.seams;
         if seams.open > 0 {
             let gap = seams.max_gap * 1000.0;
-            let mut named: Vec<&str> = report.open_seams.iter().map(String::as_str).collect();
-            if named.len() > MOST_NAMED {
-                named.truncate(MOST_NAMED);
-                named.push("…");
+            let mut named: Vec<Words> = report.open_seams.iter().take(MOST_NAMED).cloned().collect();
+            if report.open_seams.len() > MOST_NAMED {
+                named.push(Words::plain("…"));
             }
-            let words = format!(
-                "{} of {} seams are open: {}; the widest gap is {gap:.1} mm",
-                seams.open,
-                seams.open + seams.closed,
-                named.join(", ")
+            let words = words!(
+                "{n} of {count} seams are open: {names}",
+                n = seams.open,
+                count = seams.open + seams.closed,
+                names = Words::joined(named, ", ")
             );
-            self.tell(Spot::Seams, "seams", words);
+            let words = words.and("; ", widest(gap));
+            self.tell(Spot::Seams, words!("seams"), words);
         }
         let (found, expected) = (report.pieces_in_space, report.pieces_expected);
         if report.triangles > 0 && found != expected {
             self.tell(
                 Spot::Nowhere,
-                "garment",
-                format!("it lies in {found} separate parts; its seams should make {expected}"),
+                words!("garment"),
+                words!("it lies in {n} separate parts", n = found)
+                    .and("; ", words!("its seams should make {count}", count = expected)),
             );
         }
     }
@@ -113,8 +122,8 @@ impl Faults {
     fn fastening(&mut self, report: &Report) {
         let (apart, gap) = (report.fastenings.apart, report.fastenings.max_gap * 1000.0);
         if apart > 0 {
-            let words = format!("{apart} fastened buttons do not close; the widest gap is {gap:.1} mm");
-            self.tell(Spot::Nowhere, "fastenings", words);
+            let words = words!("{n} fastened buttons do not close", n = apart).and("; ", widest(gap));
+            self.tell(Spot::Nowhere, words!("fastenings"), words);
         }
     }
 
@@ -124,22 +133,24 @@ impl Faults {
             let depth = p.max_depth * 1000.0;
             self.tell(
                 Spot::Inside,
-                "body",
-                format!(
-                    "{} vertices and {} triangles of the cloth are inside the body, up to {depth:.1} mm",
-                    p.vertices, p.faces
+                words!("body"),
+                words!(
+                    "{n} vertices and {faces} triangles of the cloth are inside the body, up to {mm} mm",
+                    n = p.vertices,
+                    faces = p.faces,
+                    mm = decimal(depth, 1)
                 ),
             );
         }
         let (edges, body_edges) = (report.edges_through_body, report.body_edges_through_garment);
         if edges > 0 || body_edges > 0 {
-            let words = format!("cloth and skin cut through each other in {} places", edges + body_edges);
-            self.tell(Spot::Through, "body", words);
+            let words = words!("cloth and skin cut through each other in {n} places", n = edges + body_edges);
+            self.tell(Spot::Through, words!("body"), words);
         }
         let lies_so = if draped { report.faces_in_folds + report.faces_between } else { 0 };
         let n = report.flipped_faces - lies_so;
         if n > 0 {
-            self.tell(Spot::WrongSide, "garment", format!("{n} triangles lie wrong side out"));
+            self.tell(Spot::WrongSide, words!("garment"), words!("{n} triangles lie wrong side out", n));
         }
     }
 
@@ -153,8 +164,8 @@ impl Faults {
             let (length, height) = (opening.length * 100.0, opening.height);
             self.tell(
                 Spot::Opening(i),
-                format!("opening of {length:.0} cm, {height:.2} m above the ground"),
-                "the body does not pass through it: the cloth lies on one side of the limb, or a seam has a hole".to_owned(),
+                words!("opening of {cm} cm, {m} m above the ground", cm = decimal(length, 0), m = decimal(height, 2)),
+                words!("the body does not pass through it: the cloth lies on one side of the limb, or a seam has a hole"),
             );
         }
     }
@@ -162,27 +173,34 @@ impl Faults {
     fn cloth(&mut self, report: &Report) {
         if report.self_crossings > 0 {
             let n = report.self_crossings;
-            self.tell(Spot::Crossing, "garment", format!("the cloth passes through itself in {n} places"));
+            self.tell(
+                Spot::Crossing,
+                words!("garment"),
+                words!("the cloth passes through itself in {n} places", n),
+            );
         }
         if report.degenerate_faces > 0 {
             let n = report.degenerate_faces;
-            self.tell(Spot::Strained, "garment", format!("{n} triangles have shrunk to nothing"));
+            self.tell(Spot::Strained, words!("garment"), words!("{n} triangles have shrunk to nothing", n));
         }
         let strain = report.strain;
         if strain.doubled * EDGES_PER_TEAR > strain.edges {
             let (n, percent) = (strain.doubled, strain.max * 100.0);
-            let words = format!(
-                "{n} edges are stretched to more than twice their length, by up to {percent:.0} %: the cloth or a seam would have torn"
+            let words = words!(
+                "{n} edges are stretched to more than twice their length, by up to {percent} %: the cloth or a seam would have torn",
+                n,
+                percent = decimal(percent, 0)
             );
-            self.tell(Spot::Strained, "garment", words);
+            self.tell(Spot::Strained, words!("garment"), words);
         }
         if report.uneased_p99 > MOST_STRAIN {
             let percent = report.uneased_p99 * 100.0;
             self.tell(
                 Spot::Strained,
-                "garment",
-                format!(
-                    "its worst hundredth is strained by {percent:.0} % and more: it does not fit this body"
+                words!("garment"),
+                words!(
+                    "its worst hundredth is strained by {percent} % and more: it does not fit this body",
+                    percent = decimal(percent, 0)
                 ),
             );
         }

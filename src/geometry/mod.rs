@@ -1,5 +1,5 @@
 //! Geometry that knows nothing of cloth: meshes, adjacency, spatial trees, sparse factors, walks, winding numbers; seeded random
-//! numbers.
+//! numbers; and words about it that can be said in any language.
 
 pub mod adjacency;
 pub mod barycentric;
@@ -16,6 +16,8 @@ pub mod problem;
 pub mod random;
 pub mod rebuild;
 pub mod shapes;
+pub mod solid;
 pub mod walk;
 pub mod wide;
 pub mod winding;
+pub mod words;

@@ -2,6 +2,8 @@
 
 use serde::{Deserialize, Serialize};
 
+use crate::geometry::words::Words;
+
 /// What kind of thing is wrong.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
@@ -46,7 +48,14 @@ pub struct Problem {
     pub kind: ProblemKind,
     /// Piece, edge, seam or mark, by name and number.
     #[serde(rename = "where")]
-    pub place: String,
+    pub place: Words,
     /// What is wrong and what to do.
-    pub words: String,
+    pub words: Words,
+}
+
+impl Problem {
+    /// Where and what: "PLACE: WORDS".
+    pub fn in_words(&self) -> Words {
+        self.place.clone().and(": ", self.words.clone())
+    }
 }

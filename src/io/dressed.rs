@@ -2,9 +2,9 @@
 
 use glam::{DVec2, DVec3};
 
-use crate::cloth::{ClothState, Corner, Garment};
+use crate::cloth::{ClothState, Corner, Garment, TrimPart};
 use crate::geometry::ids::PieceId;
-use crate::io::materials::Textures;
+use crate::io::materials::{ClothMaterial, Colours, Textures};
 use crate::pattern::Pattern;
 
 /// A garment with its current vertex positions.
@@ -16,6 +16,8 @@ pub struct Dressed<'a> {
     pub state: &'a ClothState,
     /// The pattern, for the poses of its pieces in the pattern plane.
     pub pattern: &'a Pattern,
+    /// Its trims, which are written after its pieces; empty: without.
+    pub trims: &'a [TrimPart],
 }
 
 impl Dressed<'_> {
@@ -32,6 +34,16 @@ impl Dressed<'_> {
         let all = &self.garment.corners;
         let first = all.partition_point(|c| c.piece < piece);
         (&all[first..all.partition_point(|c| c.piece <= piece)], first)
+    }
+
+    /// The trims, each with its material, whose name no other of them has.
+    pub(super) fn trims(&self, colours: &Colours) -> Vec<(&TrimPart, ClothMaterial)> {
+        let mut made: Vec<(&TrimPart, ClothMaterial)> = Vec::new();
+        for part in self.trims {
+            let alike = made.iter().filter(|(other, _)| other.kind == part.kind).count();
+            made.push((part, colours.of_trim(part, alike + 1)));
+        }
+        made
     }
 }
 
@@ -65,7 +77,7 @@ impl PieceArrays {
         normals: &[DVec3],
         textures: Option<&Textures>,
     ) -> Self {
-        let Dressed { garment, state, pattern } = dressed;
+        let Dressed { garment, state, pattern, trims: _ } = dressed;
         let (corners, first) = dressed.corners(piece);
         let pose = pattern.pieces.get(&piece).map(|p| p.pose).unwrap_or_default();
         let weave = textures.and_then(|textures| textures.weave_from_piece.get(&piece));
@@ -85,10 +97,32 @@ impl PieceArrays {
     }
 }
 
+/// Vertex arrays of trims of one kind and colour.
+#[derive(Clone, Debug)]
+pub(super) struct TrimArrays {
+    pub positions: Vec<DVec3>,
+    pub normals: Vec<DVec3>,
+    pub triangles: Vec<[u32; 3]>,
+}
+
+impl TrimArrays {
+    /// The arrays of `part` on `dressed`; `normals` are those of all vertices of the garment.
+    pub fn new(dressed: &Dressed<'_>, part: &TrimPart, normals: &[DVec3]) -> Self {
+        let solid = part.solid(dressed.garment, dressed.state, normals);
+        Self {
+            positions: solid.positions.iter().map(|p| p.as_dvec3()).collect(),
+            normals: solid.normals.iter().map(|n| n.as_dvec3()).collect(),
+            triangles: solid.triangles,
+        }
+    }
+}
+
 #[cfg(test)]
 pub(super) mod tests {
     use super::*;
-    use crate::pattern::{EdgeRef, Piece, Seam};
+    use crate::cloth::TrimParts;
+    use crate::cloth::TrimShapes;
+    use crate::pattern::{Button, EdgeRef, Piece, PiecePoint, Piping, Seam, Topstitch};
 
     /// Two squares sewn along one edge, bent at the seam.
     pub(in crate::io) fn two_squares() -> (Pattern, Garment, ClothState) {
@@ -106,5 +140,55 @@ pub(super) mod tests {
         }
         let mapped = vec![true; garment.vertex_count];
         (pattern, garment, ClothState { positions, mapped })
+    }
+
+    /// The two squares with a button on the first, piping along its lower edge and a row of stitches along its left one.
+    pub(in crate::io) fn trimmed_squares() -> (Pattern, Garment, ClothState, Vec<TrimPart>) {
+        let (mut pattern, ..) = two_squares();
+        let id = *pattern.pieces.keys().next().expect("a piece");
+        let mut piece = (*pattern.pieces[&id]).clone();
+        piece.outline[0].trims.piping = Some(Piping { radius: 0.002, colour: [200, 0, 0] });
+        piece.outline[3].trims.topstitch = Some(Topstitch { distance: 0.01, ..Topstitch::default() });
+        pattern.pieces.insert(id, piece.into());
+        let at = |x: f64| PiecePoint { piece: id, at: DVec2::new(x, 0.05) };
+        let (button, hole) = (at(0.03), at(0.06));
+        let (diameter, colour) = (Button::SHIRT, Button::PEARL);
+        pattern.add_button(Button { button, hole, diameter, colour, open: false });
+        let (garment, problems) = crate::cloth::build(&pattern, 0.03);
+        assert!(problems.is_empty(), "{problems:?}");
+        let mut positions = vec![DVec3::ZERO; garment.vertex_count];
+        for c in &garment.corners {
+            positions[c.vertex as usize] =
+                if c.piece == id { c.uv.extend(0.0) } else { DVec3::new(0.1, c.uv.y, -c.uv.x) };
+        }
+        let state = ClothState { positions, mapped: vec![true; garment.vertex_count] };
+        let trims = TrimParts::new(&TrimShapes::new(&garment, &pattern), &garment, &state, usize::MAX);
+        (pattern, garment, state, trims.parts)
+    }
+
+    #[test]
+    fn trims_of_one_kind_have_numbered_names_and_the_colours_they_should() {
+        let (mut pattern, garment, state, _) = trimmed_squares();
+        let id = *pattern.pieces.keys().next().expect("a piece");
+        let mut piece = (*pattern.pieces[&id]).clone();
+        piece.outline[2].trims.topstitch = Some(Topstitch { colour: [255, 0, 0], ..Topstitch::default() });
+        piece.outline[1].trims.hem = Some(crate::pattern::Hem::USUAL);
+        pattern.pieces.insert(id, piece.into());
+        let parts = TrimParts::new(&TrimShapes::new(&garment, &pattern), &garment, &state, usize::MAX).parts;
+        let dressed = Dressed { garment: &garment, state: &state, pattern: &pattern, trims: &parts };
+        let colours = Colours::default();
+        let named = dressed.trims(&colours);
+        let names: Vec<&str> = named.iter().map(|(_, material)| material.name.as_str()).collect();
+        assert_eq!(
+            names,
+            ["Piping", "Button", "Button thread", "Buttonhole", "Stitches", "Stitches 2", "Hem"],
+            "the hem's own stitches are of plain thread"
+        );
+        let colour = |name: &str| {
+            named.iter().find(|(_, m)| m.name == name).map(|(_, m)| m.sides[0]).expect("the material")
+        };
+        assert_eq!(colour("Stitches 2"), [1.0, 0.0, 0.0]);
+        assert_eq!(colour("Hem"), colours.back);
+        assert!((colour("Piping")[0] - 0.578).abs() < 1e-3 && colour("Piping")[1] == 0.0);
     }
 }

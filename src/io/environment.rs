@@ -2,6 +2,7 @@
 
 use image::{DynamicImage, ImageFormat, Rgb32FImage};
 
+use crate::io::materials::decoded;
 use crate::io::picture::{decoder, in_words};
 
 /// Largest size of a file, bytes.
@@ -37,11 +38,6 @@ pub fn read(bytes: &[u8]) -> Result<Rgb32FImage, String> {
         return Err("it has a pixel that is no brightness".to_owned());
     }
     Ok(image)
-}
-
-/// Linear value of an sRGB one, both 0..=1 (IEC 61966-2-1).
-fn decoded(c: f32) -> f32 {
-    if c <= 0.040_45 { c / 12.92 } else { ((c + 0.055) / 1.055).powf(2.4) }
 }
 
 #[cfg(test)]

@@ -5,11 +5,15 @@ use std::sync::Arc;
 
 use glam::DAffine2;
 
+use crate::cloth::TrimPart;
+use crate::cloth::trim_parts::{Paint, TrimKind};
 use crate::geometry::ids::PieceId;
 use crate::io::atlas::Atlas;
 
 /// Roughness of materials that name none.
 pub const ROUGHNESS: f32 = 0.9;
+/// Roughness of buttons and of the teeth of zips: polished, without being metal.
+const POLISHED: f32 = 0.4;
 
 /// Material of a piece.
 #[derive(Clone, Debug, PartialEq)]
@@ -95,4 +99,39 @@ impl Colours {
             textures: None,
         })
     }
+
+    /// The material of trims, which are the `number`th of their kind, from 1: "Button", "Stitches 2".
+    pub fn of_trim(&self, part: &TrimPart, number: usize) -> ClothMaterial {
+        let name = part.kind.name();
+        let colour = match part.paint {
+            Paint::Colour(colour) => linear(colour),
+            Paint::Inside(piece) => self.of(piece).sides[1],
+        };
+        let roughness = match part.kind {
+            TrimKind::Button | TrimKind::ZipTeeth => POLISHED,
+            TrimKind::Piping
+            | TrimKind::ButtonThread
+            | TrimKind::Buttonhole
+            | TrimKind::Stitches
+            | TrimKind::ZipTape
+            | TrimKind::Hem => ROUGHNESS,
+        };
+        ClothMaterial {
+            name: if number > 1 { format!("{name} {number}") } else { name.to_owned() },
+            sides: [colour; 2],
+            roughness,
+            opacity: 1.0,
+            textures: None,
+        }
+    }
+}
+
+/// Linear RGB, 0..=1, of an sRGB colour (IEC 61966-2-1).
+pub fn linear(colour: [u8; 3]) -> [f32; 3] {
+    colour.map(|c| decoded(f32::from(c) / 255.0))
+}
+
+/// Linear value of an sRGB one, both 0..=1 (IEC 61966-2-1).
+pub(super) fn decoded(c: f32) -> f32 {
+    if c <= 0.040_45 { c / 12.92 } else { ((c + 0.055) / 1.055).powf(2.4) }
 }

@@ -5,6 +5,7 @@ use std::collections::BTreeMap;
 use std::fmt::Write as _;
 
 use crate::geometry::ids::PieceId;
+use crate::io::dressed::Dressed;
 use crate::io::materials::{ClothMaterial, Colours};
 
 /// Materials of a garment as a file beside an OBJ file.
@@ -14,30 +15,27 @@ pub struct MaterialFile {
     pub text: String,
     /// Name of the material of each piece.
     pub names: BTreeMap<PieceId, String>,
+    /// Name of the material of each part of the trims.
+    pub trims: Vec<String>,
 }
 
-/// Writes the materials of `pieces`. OBJ knows no sides of a surface: those of the outer side are written. Images are expected
-/// in files called `file_name` of their names.
-pub fn write(
-    pieces: impl Iterator<Item = PieceId>,
-    colours: &Colours,
-    file_name: impl Fn(&str) -> String,
-) -> MaterialFile {
+/// Writes the materials of the pieces of `dressed`, then those of its trims. OBJ knows no sides of a surface: those of the outer
+/// side are written. Images are expected in files called `file_name` of their names.
+pub fn write(dressed: &Dressed<'_>, colours: &Colours, file_name: impl Fn(&str) -> String) -> MaterialFile {
     let mut text = String::from("# materials of the outer side\n");
     let mut written: Vec<(ClothMaterial, String)> = Vec::new();
-    let mut names = BTreeMap::new();
-    for piece in pieces {
-        let material = colours.of(piece);
+    let mut add = |material: ClothMaterial| {
         let known = written.iter().find(|(other, _)| *other == material).map(|(_, name)| name.clone());
-        let name = known.unwrap_or_else(|| {
+        known.unwrap_or_else(|| {
             let name = unique(&material.name, &written);
             text += &one(&name, &material, colours, &file_name);
             written.push((material, name.clone()));
             name
-        });
-        names.insert(piece, name);
-    }
-    MaterialFile { text, names }
+        })
+    };
+    let names = dressed.garment.pieces.iter().map(|&(id, _)| (id, add(colours.of(id)))).collect();
+    let trims = dressed.trims(colours).into_iter().map(|(_, material)| add(material)).collect();
+    MaterialFile { text, names, trims }
 }
 
 /// `name` without spaces, at which names in such files end.
@@ -82,6 +80,9 @@ fn one(
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::cloth::{ClothState, Garment};
+    use crate::io::dressed::tests::trimmed_squares;
+    use crate::pattern::Pattern;
 
     #[test]
     fn names_have_no_spaces() {
@@ -100,7 +101,11 @@ mod tests {
         let pieces = [(1, "a b", 0.1), (2, "a b", 0.1), (3, "a b", 0.2)];
         let pieces = pieces.map(|(id, name, red)| (PieceId(id), material(name, red)));
         let colours = Colours { pieces: BTreeMap::from(pieces), ..Colours::default() };
-        let file = write((1..=4).map(PieceId), &colours, str::to_owned);
+        let pieces = (1..=4).map(|id| (PieceId(id), "piece".to_owned())).collect();
+        let garment = Garment { pieces, ..Garment::default() };
+        let (state, pattern) = (ClothState::default(), Pattern::default());
+        let dressed = Dressed { garment: &garment, state: &state, pattern: &pattern, trims: &[] };
+        let file = write(&dressed, &colours, str::to_owned);
         assert_eq!(file.names.values().collect::<Vec<_>>(), ["a_b", "a_b", "a_b-2", "cloth"]);
         assert_eq!(file.text.matches("newmtl").count(), 3);
         assert!(
@@ -108,5 +113,20 @@ mod tests {
             "{}",
             file.text
         );
+    }
+
+    #[test]
+    fn trims_have_materials_of_their_own_after_those_of_cloth() {
+        let (pattern, garment, state, trims) = trimmed_squares();
+        let dressed = Dressed { garment: &garment, state: &state, pattern: &pattern, trims: &trims };
+        let mut colours = Colours::default();
+        let cloth = ClothMaterial { name: "Button".to_owned(), ..colours.of(PieceId(0)) };
+        colours.pieces = pattern.pieces.keys().map(|&id| (id, cloth.clone())).collect();
+        let file = write(&dressed, &colours, str::to_owned);
+        assert_eq!(file.trims, ["Piping", "Button-2", "Button_thread", "Buttonhole", "Stitches"]);
+        let made: Vec<&str> = file.text.lines().filter_map(|line| line.strip_prefix("newmtl ")).collect();
+        assert_eq!(made[0], "Button", "the cloth's");
+        assert_eq!(made[1..], file.trims.iter().map(String::as_str).collect::<Vec<_>>());
+        assert!(file.text.contains("newmtl Piping\nKd 0.5776 0.0000 0.0000\n"), "{}", file.text);
     }
 }

@@ -9,9 +9,10 @@ use std::fmt::Write as _;
 use glam::DVec3;
 
 use crate::cloth::{ClothState, Garment};
-use crate::geometry::mesh::TriMesh;
+use crate::geometry::mesh::{TriMesh, vertex_normals};
 use crate::io::Limits;
 use crate::io::atlas::Atlas;
+use crate::io::dressed::{Dressed, TrimArrays};
 use crate::io::mtl::MaterialFile;
 use crate::io::polygon;
 use crate::pattern::Pattern;
@@ -405,11 +406,31 @@ pub struct UsedMaterials<'a> {
 /// Writes the draped garment: one object per piece, sewn vertices shared, `v` in metres, `vt` the pattern plane in metres,
 /// separate for each piece. Triangles with a vertex that is not yet placed on the body are left out.
 pub fn garment(garment: &Garment, state: &ClothState, pattern: &Pattern) -> String {
-    garment_with(garment, state, pattern, None)
+    cloth(garment, state, pattern, None)
 }
 
-/// Writes the draped garment like [`garment`], with materials.
-pub fn garment_with(
+/// Writes the draped garment like [`garment`], with materials, and after its pieces its trims: one object for each kind and colour,
+/// without texture coordinates.
+pub fn garment_with(dressed: &Dressed<'_>, materials: UsedMaterials<'_>) -> String {
+    let Dressed { garment, state, pattern, trims } = *dressed;
+    let mut text = cloth(garment, state, pattern, Some(materials));
+    let laid: Vec<[u32; 3]> = dressed.laid().into_iter().map(|t| garment.triangles[t]).collect();
+    let normals = if trims.is_empty() { Vec::new() } else { vertex_normals(&state.positions, &laid) };
+    let mut first = state.positions.len() as u32 + 1;
+    for (part, name) in trims.iter().zip(&materials.file.trims) {
+        let TrimArrays { positions, normals: _, triangles } = TrimArrays::new(dressed, part, &normals);
+        positions.iter().for_each(|p| write_vertex(&mut text, *p));
+        let _ = writeln!(text, "o {}\nusemtl {name}", object_name(name));
+        for t in triangles {
+            let [a, b, c] = t.map(|v| first + v);
+            let _ = writeln!(text, "f {a} {b} {c}");
+        }
+        first += positions.len() as u32;
+    }
+    text
+}
+
+fn cloth(
     garment: &Garment,
     state: &ClothState,
     pattern: &Pattern,

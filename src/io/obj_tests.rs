@@ -1,4 +1,7 @@
 use super::*;
+use crate::io::dressed::tests::trimmed_squares;
+use crate::io::materials::Colours;
+use crate::io::mtl;
 
 const TETRAHEDRON: &str = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n";
 
@@ -103,5 +106,28 @@ fn a_mesh_written_is_read_back() {
 fn every_truncation_ends_without_panic() {
     for end in 0..TETRAHEDRON.len() {
         let _ = read(&TETRAHEDRON.as_bytes()[..end]);
+    }
+}
+
+#[test]
+fn trims_come_after_the_cloth_as_objects_with_materials() {
+    let (pattern, garment, state, trims) = trimmed_squares();
+    let text = |trims: &[crate::cloth::TrimPart]| {
+        let dressed = Dressed { garment: &garment, state: &state, pattern: &pattern, trims };
+        let file = mtl::write(&dressed, &Colours::default(), str::to_owned);
+        garment_with(&dressed, UsedMaterials { file: &file, file_name: "a.mtl", atlas: None })
+    };
+    let (with, without) = (text(&trims), text(&[]));
+    let rest = with.strip_prefix(&without).expect("the cloth is as without trims");
+    let materials: Vec<&str> = rest.lines().filter_map(|line| line.strip_prefix("usemtl ")).collect();
+    assert_eq!(materials, ["Piping", "Button", "Button_thread", "Buttonhole", "Stitches"]);
+    let (mesh, cloth) = (good(&with).mesh, good(&without).mesh);
+    assert_eq!(mesh.triangles[..cloth.triangles.len()], cloth.triangles[..]);
+    let [own, all] = [&cloth, &mesh].map(|mesh| mesh.positions.len());
+    let faces = &mesh.triangles[cloth.triangles.len()..];
+    assert!(faces.iter().flatten().all(|v| (own..all).contains(&(*v as usize))), "of vertices of their own");
+    // Cords, buttons and stitches lie within some millimetres of the square of 0.1 m that they are on.
+    for p in &mesh.positions[own..] {
+        assert!(p.x > -0.001 && p.x < 0.101 && p.y > -0.0021 && p.y < 0.101 && p.z.abs() < 0.0036, "{p}");
     }
 }

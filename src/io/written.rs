@@ -3,6 +3,7 @@
 use std::collections::BTreeMap;
 
 use crate::geometry::ids::SeamId;
+use crate::geometry::words::{Words, words};
 use crate::pattern::{Edge, EdgeShape, InternalLine, Pattern, Piece, Seam};
 
 /// Largest number of names listed; further ones are only counted.
@@ -14,7 +15,7 @@ pub struct Written {
     /// The bytes of the file.
     pub bytes: Vec<u8>,
     /// Parts of the pattern that the format cannot hold, a line each; empty when all of it is there.
-    pub left_out: Vec<String>,
+    pub left_out: Vec<Words>,
     /// The grade rule table that belongs beside a DXF (`.rul`), where the pattern has sizes.
     pub rules: Option<Vec<u8>>,
 }
@@ -44,64 +45,66 @@ pub(super) enum Part {
 }
 
 impl Part {
-    fn words(self) -> &'static str {
+    fn words(self) -> Words {
         match self {
-            Self::Curves => "curves (written as short straight lines)",
-            Self::SmoothPoints => "which points are smooth",
-            Self::EdgeNames => "names of edges",
-            Self::Holes => "holes",
-            Self::Lines => "internal lines",
-            Self::LineNames => "names of internal lines",
-            Self::Notches => "notches",
-            Self::Grainline => "the grainline",
-            Self::Allowance => "the seam allowance",
-            Self::CutLine => "the cut line",
-            Self::Symmetry => "that the halves stay mirror images",
-            Self::Twin => "that it mirrors another piece",
-            Self::Layer => "the layer it is worn on",
-            Self::Placement => "its place round the body",
-            Self::Roll => "its roll round a limb",
-            Self::PlaceOnBody => "the part of the body it belongs to",
-            Self::Seams => "seams",
-            Self::Ratios => "that lengths of seams are kept",
-            Self::Sizes => "the sizes and their grade rules",
+            Self::Curves => words!("curves (written as short straight lines)"),
+            Self::SmoothPoints => words!("which points are smooth"),
+            Self::EdgeNames => words!("names of edges"),
+            Self::Holes => words!("holes"),
+            Self::Lines => words!("internal lines"),
+            Self::LineNames => words!("names of internal lines"),
+            Self::Notches => words!("notches"),
+            Self::Grainline => words!("the grainline"),
+            Self::Allowance => words!("the seam allowance"),
+            Self::CutLine => words!("the cut line"),
+            Self::Symmetry => words!("that the halves stay mirror images"),
+            Self::Twin => words!("that it mirrors another piece"),
+            Self::Layer => words!("the layer it is worn on"),
+            Self::Placement => words!("its place round the body"),
+            Self::Roll => words!("its roll round a limb"),
+            Self::PlaceOnBody => words!("the part of the body it belongs to"),
+            Self::Seams => words!("seams"),
+            Self::Ratios => words!("that lengths of seams are kept"),
+            Self::Sizes => words!("the sizes and their grade rules"),
         }
     }
 }
 
 /// A line for each part that `pattern` has and that is not in `holds`.
-pub(super) fn left_out(pattern: &Pattern, holds: &[Part]) -> Vec<String> {
+pub(super) fn left_out(pattern: &Pattern, holds: &[Part]) -> Vec<Words> {
     let mut missing: BTreeMap<Part, Vec<&str>> = BTreeMap::new();
     for piece in pattern.pieces.values() {
         for part in parts_of_piece(piece) {
             missing.entry(part).or_default().push(&piece.name);
         }
     }
-    let mut lines: Vec<String> = missing
+    let mut lines: Vec<Words> = missing
         .into_iter()
         .filter(|(part, _)| !holds.contains(part))
-        .map(|(part, names)| format!("{}: not in the file: {}", listed(&names), part.words()))
+        .map(|(part, names)| {
+            words!("{names}: not in the file: {what}", names = listed(&names), what = part.words())
+        })
         .collect();
     if !pattern.sizes.is_empty() && !holds.contains(&Part::Sizes) {
-        lines.push(format!("not in the file: {}", Part::Sizes.words()));
+        lines.push(words!("not in the file: {what}", what = Part::Sizes.words()));
     }
     let count = |part: Part, has: fn(&Seam) -> bool| {
         let count = pattern.seams.values().filter(|seam| has(seam)).count();
-        (count > 0 && !holds.contains(&part)).then(|| format!("{count} seams: {}", part.words()))
+        (count > 0 && !holds.contains(&part)).then_some(count)
     };
-    if let Some(line) = count(Part::Seams, |_| true) {
-        lines.push(line.replace(": seams", ": not in the file"));
-    } else if let Some(line) = count(Part::Ratios, |seam| seam.ratio.is_some()) {
-        lines.push(line.replace(": ", ": not in the file: "));
+    if let Some(n) = count(Part::Seams, |_| true) {
+        lines.push(words!("{n} seams: not in the file", n));
+    } else if let Some(n) = count(Part::Ratios, |seam| seam.ratio.is_some()) {
+        lines.push(words!("{n} seams: not in the file: {what}", n, what = Part::Ratios.words()));
     }
     lines
 }
 
 /// A line about seams that could not be written for the reason `why`.
-pub(super) fn seams_left_out(seams: &[SeamId], why: &str) -> Option<String> {
-    let names: Vec<String> = seams.iter().map(ToString::to_string).collect();
-    let names: Vec<&str> = names.iter().map(String::as_str).collect();
-    (!seams.is_empty()).then(|| format!("{}: not in the file: {why}", listed(&names)))
+pub(super) fn seams_left_out(seams: &[SeamId], why: Words) -> Option<Words> {
+    let names: Vec<Words> = seams.iter().map(|&seam| seam.into()).collect();
+    (!seams.is_empty())
+        .then(|| words!("{names}: not in the file: {what}", names = listed_words(names), what = why))
 }
 
 fn parts_of_piece(piece: &Piece) -> Vec<Part> {
@@ -153,11 +156,17 @@ fn line_edges(line: &InternalLine) -> &[Edge] {
 }
 
 /// A list of names, such as "front, back, sleeve and 2 more".
-fn listed(names: &[&str]) -> String {
-    let first = names[..names.len().min(NAMED)].join(", ");
-    match names.len().saturating_sub(NAMED) {
+fn listed(names: &[&str]) -> Words {
+    listed_words(names.iter().map(|&name| Words::plain(name)).collect())
+}
+
+fn listed_words(mut names: Vec<Words>) -> Words {
+    let more = names.len().saturating_sub(NAMED);
+    names.truncate(NAMED);
+    let first = Words::joined(names, ", ");
+    match more {
         0 => first,
-        more => format!("{first} and {more} more"),
+        more => words!("{first} and {more} more", first, more),
     }
 }
 

@@ -6,20 +6,22 @@
 //! | as it is | `tr("Undo")` |
 //! | with values in it | `say!("{count} of {total} pieces", count, total = all.len())` |
 //! | of one or of many | `counted(n, "1 piece", "{n} pieces")` |
-//! | in a table of constants, or from another room | `tr(row.text)` where it is drawn |
+//! | in a table of constants | `tr(row.text)` where it is drawn |
+//! | from another room: an error, a problem, a step | `words!("{name} has no edge {n}", name, n)` there, `said(&words)` where it is drawn |
 //! | a number | `number(12.5, 1)`, which has the decimal sign of the language |
 //!
 //! Tables are files like `assets/languages/de.json`. A text that a table lacks is shown in English. What programs read stays English,
 //! with a decimal point: files, recordings, and what the command line prints.
 
 mod numbers;
-pub mod sentences;
+mod said;
 mod table;
 
 use std::cell::Cell;
 use std::fmt::Display;
 
-pub use numbers::{decimal_sign, decimal_signs, localised, number, parsed, short, signed};
+pub use numbers::{decimal_sign, localised, number, parsed, short, signed};
+pub use said::said;
 pub use table::Table;
 
 thread_local! {

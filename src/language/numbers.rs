@@ -35,20 +35,6 @@ pub fn localised(number: &str) -> String {
     }
 }
 
-/// `words` with the decimal sign of the language in place of every point between digits.
-pub fn decimal_signs(words: &str) -> String {
-    let is_digit = |c: Option<char>| c.is_some_and(|c| c.is_ascii_digit());
-    let mut before = None;
-    let mut rest = words.chars().peekable();
-    let mut out = String::with_capacity(words.len());
-    while let Some(c) = rest.next() {
-        let is_sign = c == '.' && is_digit(before) && is_digit(rest.peek().copied());
-        out.push(if is_sign { decimal_sign() } else { c });
-        before = Some(c);
-    }
-    out
-}
-
 /// Parses a number with a decimal point or a decimal comma, whatever the language; spaces are left out. None if it is no finite
 /// number, which one with two such signs is not.
 pub fn parsed(text: &str) -> Option<f64> {
@@ -73,14 +59,6 @@ mod tests {
         assert_eq!(all(), ["12.2", "-3", "+0.3", "0.0", "0.125"]);
         assert_eq!(shown_in(Table::german(), all), ["12,2", "-3", "+0,3", "0,0", "0,125"]);
         assert_eq!(decimal_sign(), '.', "shown for that long only");
-    }
-
-    #[test]
-    fn only_points_between_digits_are_decimal_signs() {
-        let words = "v1. 2 rows at 1.5 mm, (+3.25 %). 4.";
-        assert_eq!(decimal_signs(words), words);
-        let german = shown_in(Table::german(), || decimal_signs(words));
-        assert_eq!(german, "v1. 2 rows at 1,5 mm, (+3,25 %). 4.");
     }
 
     #[test]

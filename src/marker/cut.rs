@@ -6,10 +6,11 @@ use glam::DVec2;
 
 use crate::geometry::ids::PieceId;
 use crate::geometry::polygon::signed_area;
+use crate::geometry::words::Words;
 use crate::io::cutting_line;
 use crate::marker::order::{MOST_PIECES, MarkerError, Order};
 use crate::pattern::grading::graded;
-use crate::pattern::{Edge, EdgeShape, Pattern, Piece};
+use crate::pattern::{Edge, EdgeShape, Pattern, Piece, Problem};
 
 /// Largest distance of the cutting lines that are laid out from the true ones, metres.
 pub const CHORDS: f64 = 2e-4;
@@ -43,7 +44,7 @@ pub struct Cut {
     /// All pieces in all sizes, and how often each is cut.
     pub pieces: Vec<(CutPiece, usize)>,
     /// What grading made of them that cannot be cut, in words.
-    pub problems: Vec<String>,
+    pub problems: Vec<Words>,
 }
 
 /// All pieces that `order` takes of `pattern`.
@@ -69,7 +70,7 @@ pub fn cut_pieces(pattern: &Pattern, order: &Order) -> Result<Cut, MarkerError> 
             "" => pattern.clone(),
             size => {
                 let graded = graded(pattern, size).map_err(MarkerError::Size)?;
-                cut.problems.extend(graded.problems.iter().map(|p| format!("{}: {}", p.place, p.words)));
+                cut.problems.extend(graded.problems.iter().map(Problem::in_words));
                 graded.pattern
             }
         };

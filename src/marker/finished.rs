@@ -1,6 +1,7 @@
 //! A marker that is laid out, with its report, ready to be shown and written: the same from the window and the command line.
 
 use crate::io::pdf::{Paper, PdfError};
+use crate::language::said;
 use crate::marker::layout::{Marker, make};
 use crate::marker::nest::Watch;
 use crate::marker::order::{MarkerError, Order};
@@ -26,12 +27,13 @@ impl FinishedMarker {
         Ok(Self { marker, report })
     }
 
-    /// The file to cut from, with the report in words below the cloth. `paper` is for PDF only.
+    /// The file to cut from, with the report below the cloth in the language that is shown. `paper` is for PDF only.
     ///
     /// # Errors
     /// Why no PDF can be made of it.
     pub fn file(&self, format: MarkerFormat, paper: Paper) -> Result<Vec<u8>, PdfError> {
-        write(format, &self.marker, &self.report.name, &self.report.words(), paper)
+        let words: Vec<String> = self.report.words().iter().map(said).collect();
+        write(format, &self.marker, &self.report.name, &words, paper)
     }
 }
 
@@ -40,6 +42,7 @@ mod tests {
     use glam::DVec2;
 
     use super::*;
+    use crate::geometry::words::Words;
     use crate::marker::nest::Effort;
     use crate::pattern::Piece;
 
@@ -68,7 +71,7 @@ mod tests {
         let order = Order { garments: vec![(String::new(), 1)], width: 0.1, ..Order::default() };
         let error = make(&pattern(), &order, &Watch::default()).expect_err("too wide");
         assert_eq!(error.to_string(), "\"front\" needs cloth of 30.0 cm, and this is 10.0 cm wide");
-        let inches = error.words(&|metres| format!("{:.1} in", metres / 0.0254));
+        let inches = error.words_by(&|metres| Words::plain(format!("{:.1} in", metres / 0.0254)));
         assert_eq!(inches, "\"front\" needs cloth of 11.8 in, and this is 3.9 in wide");
     }
 }

@@ -5,6 +5,7 @@ use std::sync::Arc;
 use glam::DVec2;
 
 use crate::geometry::ids::PieceId;
+use crate::geometry::words::Words;
 use crate::marker::cut::{CHORDS, Cut, CutPiece, cut_pieces};
 use crate::marker::nest::{Nesting, NoLayout, Watch, nest};
 use crate::marker::order::{MarkerError, Order};
@@ -39,7 +40,7 @@ pub struct Marker {
     pub area: f64,
     pub placed: Vec<Placed>,
     /// What cannot be cut as it is, in words.
-    pub problems: Vec<String>,
+    pub problems: Vec<Words>,
 }
 
 impl Marker {

@@ -1,5 +1,6 @@
 //! What is to be cut, on which cloth, and what may be turned.
 
+use crate::geometry::words::{Words, decimal, within_quotes, words};
 use crate::marker::nest::Effort;
 use crate::pattern::Pattern;
 
@@ -37,47 +38,62 @@ impl Default for Order {
 }
 
 /// Why there is no marker.
-#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[derive(Clone, Debug, PartialEq)]
 pub enum MarkerError {
     /// The pattern has no pieces.
-    #[error("the pattern has no pieces to cut")]
     Empty,
     /// Every quantity is 0.
-    #[error("no garment is asked for: give a size a quantity of 1 or more")]
     Nothing,
     /// A size that there is not, told in words.
-    #[error("{0}")]
-    Size(String),
+    Size(Words),
     /// A number that cannot be, told in words.
-    #[error("{0}")]
-    Number(String),
+    Number(Words),
     /// A piece does not fit the cloth.
-    #[error("{}", too_wide(piece, *needs, *width, &|metres| format!("{:.1} cm", metres * 100.0)))]
     TooWide { piece: String, needs: f64, width: f64 },
     /// More pieces than [`MOST_PIECES`].
-    #[error("{0} pieces would be cut; a marker holds {MOST_PIECES}: make several")]
     TooMany(usize),
     /// A piece whose outline encloses nothing.
-    #[error("{0:?} encloses no cloth: its outline has no area")]
     NoArea(String),
     /// It was stopped.
-    #[error("the layout was stopped")]
     Stopped,
 }
 
 impl MarkerError {
+    /// The error in words, with lengths in centimetres.
+    pub fn words(&self) -> Words {
+        self.words_by(&|metres| words!("{cm} cm", cm = decimal(metres * 100.0, 1)))
+    }
+
     /// The error in words, with lengths (metres) told by `length`.
-    pub fn words(&self, length: &dyn Fn(f64) -> String) -> String {
+    pub fn words_by(&self, length: &dyn Fn(f64) -> Words) -> Words {
         match self {
-            Self::TooWide { piece, needs, width } => too_wide(piece, *needs, *width, length),
-            other => other.to_string(),
+            Self::Empty => words!("the pattern has no pieces to cut"),
+            Self::Nothing => words!("no garment is asked for: give a size a quantity of 1 or more"),
+            Self::Size(words) | Self::Number(words) => words.clone(),
+            Self::TooWide { piece, needs, width } => words!(
+                "\"{name}\" needs cloth of {needs}, and this is {width} wide",
+                name = within_quotes(piece),
+                needs = length(*needs),
+                width = length(*width)
+            ),
+            Self::TooMany(n) => {
+                words!("{n} pieces would be cut; a marker holds {most}: make several", n, most = MOST_PIECES)
+            }
+            Self::NoArea(piece) => {
+                words!("\"{name}\" encloses no cloth: its outline has no area", name = within_quotes(piece))
+            }
+            Self::Stopped => words!("the layout was stopped"),
         }
     }
 }
 
-fn too_wide(piece: &str, needs: f64, width: f64, length: &dyn Fn(f64) -> String) -> String {
-    format!("{piece:?} needs cloth of {}, and this is {} wide", length(needs), length(width))
+impl std::fmt::Display for MarkerError {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.write_str(&self.words())
+    }
 }
+
+impl std::error::Error for MarkerError {}
 
 /// The garments of an order by words: one of each of `sizes`, or for `quantities` such as "M=2" that many; "3" alone means the
 /// base size, and so does nothing at all.
@@ -97,7 +113,10 @@ pub fn garments(
             None => (base(), words.as_str()),
         };
         let number = number.trim().parse().map_err(|_| {
-            MarkerError::Number(format!("{words:?} is no quantity: it is written SIZE=N, such as M=2, or N"))
+            MarkerError::Number(words!(
+                "\"{words}\" is no quantity: it is written SIZE=N, such as M=2, or N",
+                words = within_quotes(words)
+            ))
         })?;
         all.push((size, number));
     }
@@ -116,18 +135,25 @@ impl Order {
     /// Refuses numbers that no cloth has.
     pub(super) fn check(&self) -> Result<(), MarkerError> {
         let Self { garments, width, gap, nap: _, tilt, effort } = self;
-        let wrong = |words: String| Err(MarkerError::Number(words));
+        let wrong = |words: Words| Err(MarkerError::Number(words));
         if !(*width > 0.0 && *width <= WIDEST) {
-            return wrong(format!("cloth {width} m wide: it must be more than 0 and at most {WIDEST}"));
+            return wrong(words!(
+                "cloth {width} m wide: it must be more than 0 and at most {most}",
+                width = *width,
+                most = WIDEST
+            ));
         }
         if !(0.0..=WIDEST_GAP).contains(gap) {
-            return wrong(format!("a gap of {gap} m: it must be 0 to {WIDEST_GAP}"));
+            return wrong(words!("a gap of {gap} m: it must be 0 to {most}", gap = *gap, most = WIDEST_GAP));
         }
         if !(0.0..=MOST_TILT).contains(tilt) {
-            return wrong(format!("a tilt of {:.1} degrees: it must be 0 to 45", tilt.to_degrees()));
+            return wrong(words!(
+                "a tilt of {degrees} degrees: it must be 0 to 45",
+                degrees = decimal(tilt.to_degrees(), 1)
+            ));
         }
         if !(effort.seconds >= 0.0 && effort.seconds.is_finite()) {
-            return wrong(format!("{} seconds: it must be 0 or more", effort.seconds));
+            return wrong(words!("{seconds} seconds: it must be 0 or more", seconds = effort.seconds));
         }
         if garments.iter().all(|(_, count)| *count == 0) {
             return Err(MarkerError::Nothing);

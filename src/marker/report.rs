@@ -3,6 +3,7 @@
 use glam::DVec2;
 use serde::Serialize;
 
+use crate::geometry::words::{Words, decimal, words};
 use crate::marker::layout::Marker;
 use crate::pattern::Pattern;
 
@@ -67,7 +68,7 @@ pub struct MarkerReport {
     pub pieces: Vec<PieceRow>,
     pub places: Vec<PlaceRow>,
     /// What cannot be cut as it is, in words.
-    pub problems: Vec<String>,
+    pub problems: Vec<Words>,
 }
 
 impl MarkerReport {
@@ -96,7 +97,7 @@ impl MarkerReport {
     }
 
     /// The result in a few lines, for people.
-    pub fn words(&self) -> Vec<String> {
+    pub fn words(&self) -> Vec<Words> {
         let garments: Vec<String> =
             self.garments
                 .iter()
@@ -104,17 +105,20 @@ impl MarkerReport {
                     if g.size.is_empty() { g.count.to_string() } else { format!("{} × {}", g.count, g.size) }
                 })
                 .collect();
-        let way = if self.nap { "all one way" } else { "either way" };
-        let cloth = format!(
-            "{:.3} m of cloth {:.3} m wide; {:.1} % of it in pieces",
-            self.length, self.width, self.yield_percent
+        let way = if self.nap { words!("all one way") } else { words!("either way") };
+        let cloth = words!(
+            "{length} m of cloth {width} m wide; {percent} % of it in pieces",
+            length = decimal(self.length, 3),
+            width = decimal(self.width, 3),
+            percent = decimal(self.yield_percent, 1)
         );
-        let garments = format!(
-            "{} pieces, garments: {}; {:.3} m for each; gap {:.1} mm, {way}",
-            self.places.len(),
-            garments.join(", "),
-            self.length_per_garment,
-            self.gap * 1000.0
+        let garments = words!(
+            "{n} pieces, garments: {garments}; {length} m for each; gap {mm} mm, {way}",
+            n = self.places.len(),
+            garments = garments.join(", "),
+            length = decimal(self.length_per_garment, 3),
+            mm = decimal(self.gap * 1000.0, 1),
+            way
         );
         vec![cloth, garments]
     }

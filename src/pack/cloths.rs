@@ -7,6 +7,7 @@ use serde::Serialize;
 use crate::cloth::Fabric;
 use crate::geometry::ids::PieceId;
 use crate::geometry::polygon::signed_area;
+use crate::geometry::words::Words;
 use crate::io::cutting_line;
 use crate::marker::nest::{Effort, Watch};
 use crate::marker::{MarkerError, Order, make};
@@ -50,7 +51,7 @@ pub struct Cloth {
     pub colour: Option<[u8; 3]>,
     /// Print, in words.
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub print: Option<String>,
+    pub print: Option<Words>,
     /// Name of the image all over it.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub image: Option<String>,
@@ -74,7 +75,7 @@ pub struct Taken {
     pub yield_percent: Option<f64>,
     /// Why the pieces cannot be laid out.
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub why: Option<String>,
+    pub why: Option<Words>,
 }
 
 /// A named set of cloths.
@@ -164,7 +165,7 @@ fn taken(pattern: &Pattern, size: &str, wish: &Wish, effort: Effort) -> Result<T
             Ok(Taken { length: Some(marker.length), yield_percent: Some(percent), ..none })
         }
         Err(error @ MarkerError::Number(_)) => Err(error),
-        Err(error) => Ok(Taken { why: Some(error.to_string()), ..none }),
+        Err(error) => Ok(Taken { why: Some(error.words()), ..none }),
     }
 }
 

@@ -107,7 +107,7 @@ fn pale(colour: [u8; 3]) -> [u8; 3] {
 fn worked(piece: &Piece, front: Front) -> Vec<(usize, Vec<DVec2>)> {
     let fractions: Vec<f64> = (0..=16).map(|i| f64::from(i) / 16.0).collect();
     let kinds = |trims: Trims| {
-        let Trims { fold, elastic, topstitch, hem, piping } = trims;
+        let Trims { fold, elastic, topstitch, hem, piping, wrinkle: _ } = trims;
         let all = [elastic.is_some(), hem.is_some(), topstitch.is_some(), fold.is_some(), piping.is_some()];
         (0..all.len()).filter(move |&k| all[k])
     };

@@ -5,6 +5,7 @@ use std::sync::Arc;
 use serde::Serialize;
 
 use crate::fit::{self, BodyIndex, Opening};
+use crate::geometry::words::{Words, words};
 use crate::marker::{MarkerError, WIDEST};
 use crate::pack::alike::{Cut, Likeness};
 use crate::pack::cloths::{Cloth, Colourway, Taken, Wish, area, cloths, colourways};
@@ -80,7 +81,7 @@ pub struct Pack {
     /// Hems, neck and cuffs as worn, longest first.
     pub openings: Vec<Opening>,
     /// What a maker must know beside, in sentences.
-    pub notes: Vec<String>,
+    pub notes: Vec<Words>,
 }
 
 impl Pack {
@@ -95,12 +96,16 @@ impl Pack {
             return Err(MarkerError::Empty);
         }
         if !(wish.width > 0.0 && wish.width <= WIDEST) {
-            let words = format!("cloth {} m wide: it must be more than 0 and at most {WIDEST}", wish.width);
+            let words = words!(
+                "cloth {width} m wide: it must be more than 0 and at most {most}",
+                width = wish.width,
+                most = WIDEST
+            );
             return Err(MarkerError::Number(words));
         }
         let seconds = wish.effort.seconds;
         if !(seconds >= 0.0 && seconds.is_finite()) {
-            return Err(MarkerError::Number(format!("{seconds} seconds: it must be 0 or more")));
+            return Err(MarkerError::Number(words!("{seconds} seconds: it must be 0 or more", seconds)));
         }
         let cloths = cloths(document, wish)?;
         let trims = trims(pattern, &document.artwork);
@@ -138,7 +143,7 @@ impl Pack {
                 (Some(length), Some(percent), _) => {
                     format!("{length:.3} m of cloth {:.3} m wide; {percent:.1} % of it in pieces", self.width)
                 }
-                (_, _, why) => why.clone().unwrap_or_default(),
+                (_, _, why) => why.as_ref().map_or_else(String::new, Words::to_string),
             };
             format!("cloth {} ({}){size}: {needed}", self.cloth_name(i), cloth.fabric)
         };
@@ -208,32 +213,32 @@ fn piece_row(id: u32, piece: &Piece, cloth: usize) -> PieceRow {
     }
 }
 
-fn notes(pattern: &Pattern, outfit: Option<&Outfit>, measures: &[SizeRow]) -> Vec<String> {
+fn notes(pattern: &Pattern, outfit: Option<&Outfit>, measures: &[SizeRow]) -> Vec<Words> {
     let mut notes = Vec::new();
     let pieces = || pattern.pieces.values();
     let bare = pieces().filter(|piece| piece.allowance == 0.0 && piece.cut_line.is_empty()).count();
     if bare == pattern.pieces.len() {
         notes.push(
-            "No piece has a seam allowance: the cutting lines are the seam lines. Add it before cutting; the cloth needed grows by it."
-                .to_owned(),
+            words!("No piece has a seam allowance: the cutting lines are the seam lines. Add it before cutting; the cloth needed grows by it."),
         );
     } else if bare > 0 {
         let (n, count) = (bare, pattern.pieces.len());
-        notes.push(format!("{n} of {count} pieces have no seam allowance."));
+        notes.push(words!("{n} of {count} pieces have no seam allowance.", n, count));
     }
     if pieces().any(|piece| piece.outline.iter().any(|edge| edge.trims.hem.is_some())) {
-        notes.push("Hems are turned in: their width is cloth beyond the edge.".to_owned());
+        notes.push(words!("Hems are turned in: their width is cloth beyond the edge."));
     }
     let (n, count) = (pieces().filter(|piece| piece.grainline.is_none()).count(), pattern.pieces.len());
     if n > 0 {
-        notes.push(format!(
-            "No grainline is drawn on {n} of {count} pieces: their own upright is taken for it."
+        notes.push(words!(
+            "No grainline is drawn on {n} of {count} pieces: their own upright is taken for it.",
+            n,
+            count
         ));
     }
     if outfit.is_some_and(|outfit| is_changed(&outfit.source.pattern, pattern)) {
         notes.push(
-            "The pattern has changed since it was dressed: pictures, girths and openings are of its earlier state."
-                .to_owned(),
+            words!("The pattern has changed since it was dressed: pictures, girths and openings are of its earlier state."),
         );
     }
     for size in measures {

@@ -33,5 +33,5 @@ pub use facts::{Pack, PieceRow, Source};
 pub use seams::{SeamRow, SideRow};
 pub use sizes::SizeRow;
 pub use trims::{Supply, TrimRow};
-pub use words::NO_ADAPTER;
+pub use words::no_adapter;
 pub use write::{Picture, Pictures, write};

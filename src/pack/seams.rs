@@ -3,6 +3,7 @@
 use serde::Serialize;
 
 use crate::geometry::ids::SeamId;
+use crate::geometry::words::{Words, decimal, words};
 use crate::language::{number, say, tr};
 use crate::pack::words;
 use crate::pattern::{Pattern, Piece, Seam, Stretch};
@@ -18,7 +19,7 @@ pub struct SideRow {
     /// Name of its piece.
     pub piece: String,
     /// The edge, or the stretch of edges, in words.
-    pub edge: String,
+    pub edge: Words,
     /// Length, metres; None where there is no such stretch.
     pub length: Option<f64>,
 }
@@ -76,29 +77,32 @@ fn side_row(pattern: &Pattern, side: &Stretch) -> SideRow {
     let piece = pattern.pieces.get(&side.piece);
     SideRow {
         piece: piece.map_or_else(|| side.piece.to_string(), |piece| piece.name.clone()),
-        edge: piece.map_or_else(String::new, |piece| edge_words(piece, side)),
+        edge: piece.map_or_else(Words::default, |piece| edge_words(piece, side)),
         length: piece.and_then(|piece| side.length(piece)),
     }
 }
 
 /// The stretch in words: "edge 3", "edges 3 to 5", "edge 3 from 20 to 80 %"; with the name of the edge, if it has one.
-fn edge_words(piece: &Piece, side: &Stretch) -> String {
-    let Some(parts) = side.parts(piece) else { return "an edge that is not there".to_owned() };
+fn edge_words(piece: &Piece, side: &Stretch) -> Words {
+    let Some(parts) = side.parts(piece) else { return words!("an edge that is not there") };
     let (Some(&(first, from, _)), Some(&(last, _, to))) = (parts.first(), parts.last()) else {
-        return String::new();
+        return Words::default();
     };
-    let percent = |share: f64| format!("{:.0} %", share * 100.0);
+    let percent = |share: f64| decimal(share * 100.0, 0);
     if first == last && parts.len() == 1 {
         let label = piece.edge(first).label.as_deref().filter(|label| !label.trim().is_empty());
-        let edge = label.map_or_else(|| format!("edge {first}"), words::name);
+        let edge =
+            label.map_or_else(|| words!("edge {n}", n = first), |label| Words::plain(words::name(label)));
         return match (from > 0.0, to < 1.0) {
             (false, false) => edge,
-            _ => format!("{edge} from {:.0} to {}", from * 100.0, percent(to)),
+            _ => words!("{edge} from {from} to {to} %", edge, from = percent(from), to = percent(to)),
         };
     }
-    let start = if from > 0.0 { format!("{first} at {}", percent(from)) } else { first.to_string() };
-    let end = if to < 1.0 { format!("{last} at {}", percent(to)) } else { last.to_string() };
-    format!("edges {start} to {end}")
+    let end = |edge: usize, share: f64, is_whole: bool| match is_whole {
+        true => Words::plain(edge.to_string()),
+        false => words!("{n} at {percent} %", n = edge, percent = percent(share)),
+    };
+    words!("edges {from} to {to}", from = end(first, from, from <= 0.0), to = end(last, to, to >= 1.0))
 }
 
 #[cfg(test)]

@@ -2,9 +2,10 @@
 
 use serde::Serialize;
 
+use crate::geometry::words::Words;
 use crate::pack::shape::size_of;
-use crate::pattern::Pattern;
 use crate::pattern::grading::graded;
+use crate::pattern::{Pattern, Problem};
 
 /// A size, measured flat. Seam allowances do not count.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -16,7 +17,7 @@ pub struct SizeRow {
     /// Length of the first side of each seam, in the order of their numbers, metres; None where there is no such stretch.
     pub seams: Vec<Option<f64>>,
     /// What cannot be cut in this size, in words.
-    pub problems: Vec<String>,
+    pub problems: Vec<Words>,
 }
 
 impl SizeRow {
@@ -36,7 +37,7 @@ impl SizeRow {
             size: size.to_owned(),
             pieces: own.pieces.values().map(|piece| size_of(piece).to_array()).collect(),
             seams: own.seams.values().map(length).collect(),
-            problems: graded.problems.iter().map(|p| format!("{}: {}", p.place, p.words)).collect(),
+            problems: graded.problems.iter().map(Problem::in_words).collect(),
         })
     }
 }

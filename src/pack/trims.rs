@@ -3,6 +3,7 @@
 use serde::Serialize;
 
 use crate::geometry::ids::PieceId;
+use crate::geometry::words::{Value, Words, decimal, words};
 use crate::pack::words;
 use crate::pattern::{Pattern, Piece, Piping, Stretch, Trims};
 use crate::session::Artwork;
@@ -16,11 +17,11 @@ pub struct TrimRow {
     /// What it is: "elastic", "button".
     pub what: &'static str,
     /// Where, in words.
-    pub places: Vec<String>,
+    pub places: Vec<Words>,
     /// Length of all places together, metres; None for what is at a point.
     pub length: Option<f64>,
     /// Its measures, in words.
-    pub measures: String,
+    pub measures: Words,
     /// Its colour, sRGB.
     pub colour: Option<[u8; 3]>,
 }
@@ -29,7 +30,7 @@ pub struct TrimRow {
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Supply {
     /// What it is, with its measures.
-    pub what: String,
+    pub what: Words,
     /// How many; None for what is bought by length.
     pub count: Option<usize>,
     /// Its length, metres: of one where several are counted alike, else of all.
@@ -44,14 +45,15 @@ pub fn trims(pattern: &Pattern, artwork: &Artwork) -> Vec<TrimRow> {
         let mut own = Rows { id, piece, rows: Vec::new() };
         for edge in 0..piece.edge_count() {
             let label = piece.edge(edge).label.as_deref().map(str::trim).filter(|label| !label.is_empty());
-            let place = label.map_or_else(|| format!("edge {edge}"), words::name);
+            let place =
+                label.map_or_else(|| words!("edge {n}", n = edge), |label| Words::plain(words::name(label)));
             own.along(piece.edge(edge).trims, place, || piece.edge_length(edge));
         }
         for (k, line) in piece.lines.iter().enumerate() {
             for (i, edge) in line.edges.iter().enumerate() {
                 let place = match line.name.trim() {
-                    "" => format!("line {k}"),
-                    name => words::name(name),
+                    "" => words!("line {n}", n = k),
+                    name => Words::plain(words::name(name)),
                 };
                 own.along(edge.trims, place, || line_length(line, i));
             }
@@ -74,9 +76,9 @@ impl Rows<'_> {
     fn add(
         &mut self,
         what: &'static str,
-        place: String,
+        place: Words,
         length: Option<f64>,
-        measures: String,
+        measures: Words,
         colour: Option<[u8; 3]>,
     ) {
         let alike = |row: &&mut TrimRow| (row.what, &row.measures, row.colour) == (what, &measures, colour);
@@ -99,35 +101,45 @@ impl Rows<'_> {
     }
 
     /// What is worked along one edge, of which `length` gives the length in metres.
-    fn along(&mut self, trims: Trims, place: String, length: impl Fn() -> f64) {
+    fn along(&mut self, trims: Trims, place: Words, length: impl Fn() -> f64) {
         if trims.is_none() {
             return;
         }
-        let Trims { fold, elastic, topstitch, hem, piping } = trims;
+        // A wrinkle is how cloth lies, and not worked.
+        let Trims { fold, elastic, topstitch, hem, piping, wrinkle: _ } = trims;
         let length = Some(length());
         if let Some(fold) = fold {
-            let way = if fold.angle >= 0.0 { "outwards" } else { "inwards" };
-            let measures = format!("{:.0}° {way}", fold.angle.to_degrees().abs());
+            let degrees = decimal(fold.angle.to_degrees().abs(), 0);
+            let measures = match fold.angle >= 0.0 {
+                true => words!("{n}° outwards", n = degrees),
+                false => words!("{n}° inwards", n = degrees),
+            };
             self.add("fold", place.clone(), length, measures, None);
         }
         if let Some(elastic) = elastic {
-            let measures = format!("cut to {:.0} % of the cloth", elastic.ratio * 100.0);
+            let measures = words!("cut to {n} % of the cloth", n = decimal(elastic.ratio * 100.0, 0));
             self.add("elastic", place.clone(), length, measures, None);
         }
         if let Some(stitch) = topstitch {
-            let mut measures = format!(
-                "{} at {:.1} mm, stitches of {:.1} mm",
-                words::count(usize::from(stitch.rows), "row"),
-                stitch.distance * 1e3,
-                stitch.length * 1e3
-            );
-            if stitch.rows > 1 {
-                measures += &format!(", rows {:.1} mm apart", stitch.spacing * 1e3);
-            }
+            let rows = match stitch.rows {
+                1 => words!("1 row"),
+                n => words!("{n} rows", n),
+            };
+            let [mm, stitches, apart] = [stitch.distance, stitch.length, stitch.spacing].map(mm);
+            let measures = match stitch.rows > 1 {
+                true => words!(
+                    "{rows} at {mm} mm, stitches of {stitch} mm, rows {apart} mm apart",
+                    rows,
+                    mm,
+                    stitch = stitches,
+                    apart
+                ),
+                false => words!("{rows} at {mm} mm, stitches of {stitch} mm", rows, mm, stitch = stitches),
+            };
             self.add("topstitching", place.clone(), length, measures, Some(stitch.colour));
         }
         if let Some(hem) = hem {
-            let measures = format!("{:.1} cm turned in", hem.width * 100.0);
+            let measures = words!("{cm} cm turned in", cm = decimal(hem.width * 100.0, 1));
             self.add("hem", place.clone(), length, measures, hem.colour);
         }
         if let Some(piping) = piping {
@@ -137,18 +149,18 @@ impl Rows<'_> {
 
     fn fastenings(&mut self, pattern: &Pattern) {
         for (id, button) in &pattern.buttons {
-            let measures = format!("{:.1} mm", button.diameter * 1e3);
+            let mm = mm(button.diameter);
             if button.button.piece == self.id {
-                self.add("button", id.to_string(), None, measures.clone(), Some(button.colour));
+                self.add("button", (*id).into(), None, words!("{mm} mm", mm), Some(button.colour));
             }
             if button.hole.piece == self.id {
-                self.add("buttonhole", id.to_string(), None, format!("for {measures}"), None);
+                self.add("buttonhole", (*id).into(), None, words!("for {mm} mm", mm), None);
             }
         }
         for (id, seam) in &pattern.seams {
             let Some(zip) = seam.zip else { continue };
             if let Some(side) = seam.sides.iter().find(|side| side.piece == self.id) {
-                self.add("zip", id.to_string(), side.length(self.piece), String::new(), Some(zip.colour));
+                self.add("zip", (*id).into(), side.length(self.piece), Words::default(), Some(zip.colour));
             }
         }
     }
@@ -157,16 +169,24 @@ impl Rows<'_> {
         let own = self.id;
         for (id, graphic) in artwork.graphics.iter().filter(|(_, graphic)| graphic.piece == own) {
             let image = artwork.images.get(&graphic.image);
-            let name = image.map_or_else(|| "an image".to_owned(), |image| words::name(&image.name));
-            let measures = format!("{name}, {:.1} cm wide", graphic.width_m * 100.0);
-            self.add("graphic", id.to_string(), None, measures, None);
+            let cm = decimal(graphic.width_m * 100.0, 1);
+            let measures = match image {
+                Some(image) => words!("{name}, {cm} cm wide", name = words::name(&image.name), cm),
+                None => words!("an image, {cm} cm wide", cm),
+            };
+            self.add("graphic", (*id).into(), None, measures, None);
         }
     }
 }
 
 /// Thickness of a covered cord, in words.
-fn thickness(piping: &Piping) -> String {
-    format!("{:.1} mm thick", piping.radius * 2e3)
+fn thickness(piping: &Piping) -> Words {
+    words!("{mm} mm thick", mm = mm(piping.radius * 2.0))
+}
+
+/// A length (metres) in millimetres.
+fn mm(metres: f64) -> Value {
+    decimal(metres * 1e3, 1)
 }
 
 /// Lengths of piping, metres; on a seam whose sides both name it, of one of them: where they differ, as on the first side.
@@ -222,7 +242,7 @@ fn line_length(line: &crate::pattern::InternalLine, i: usize) -> f64 {
 pub fn supplies(pattern: &Pattern, trims: &[TrimRow]) -> Vec<Supply> {
     let mut supplies: Vec<Supply> = Vec::new();
     for button in pattern.buttons.values() {
-        let what = format!("button of {:.1} mm", button.diameter * 1e3);
+        let what = words!("button of {mm} mm", mm = mm(button.diameter));
         add(&mut supplies, Supply { what, count: Some(1), length: None, colour: Some(button.colour) });
     }
     for (id, seam) in &pattern.seams {
@@ -231,7 +251,7 @@ pub fn supplies(pattern: &Pattern, trims: &[TrimRow]) -> Vec<Supply> {
             Some(piece) => piece,
             None => continue,
         });
-        let what = format!("zip in {id}");
+        let what = words!("zip in seam {n}", n = id.0);
         supplies.push(Supply { what, count: Some(1), length, colour: Some(zip.colour) });
     }
     let mut elastic = 0.0;
@@ -245,17 +265,17 @@ pub fn supplies(pattern: &Pattern, trims: &[TrimRow]) -> Vec<Supply> {
         elastic += edges.chain(lines).sum::<f64>();
     }
     if elastic > 0.0 {
-        let what = "elastic, cut to its length at rest".to_owned();
+        let what = words!("elastic, cut to its length at rest");
         supplies.push(Supply { what, count: None, length: Some(elastic), colour: None });
     }
     let mut cords: Vec<Supply> = Vec::new();
     for (cord, length) in piping(pattern) {
-        let what = format!("piping {}", thickness(&cord));
+        let what = words!("piping {mm} mm thick", mm = mm(cord.radius * 2.0));
         add(&mut cords, Supply { what, count: None, length: Some(length), colour: Some(cord.colour) });
     }
     supplies.extend(cords.into_iter().filter(|cord| cord.length > Some(1e-6)));
     for row in trims.iter().filter(|row| row.what == "topstitching") {
-        let what = "topstitching in this thread, length of its lines".to_owned();
+        let what = words!("topstitching in this thread, length of its lines");
         add(&mut supplies, Supply { what, count: None, length: row.length, colour: row.colour });
     }
     supplies

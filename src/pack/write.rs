@@ -5,9 +5,10 @@ use std::sync::Arc;
 use image::RgbaImage;
 
 use crate::geometry::ids::PieceId;
+use crate::geometry::words::Words;
 use crate::io::pdf::PdfError;
 use crate::io::pdf::booklet::{self, Ink, Letters};
-use crate::language::{counted, number, say, signed, tr};
+use crate::language::{counted, number, said, say, signed, tr};
 use crate::pack::cloths::{Cloth, Taken};
 use crate::pack::drawing::{self, Sketch};
 use crate::pack::facts::{Pack, PieceRow};
@@ -39,7 +40,7 @@ pub struct Picture {
 pub enum Pictures {
     Drawn(Vec<Picture>),
     /// There are none, and why.
-    LeftOut(String),
+    LeftOut(Words),
 }
 
 /// Writes the tech pack of `pattern` as PDF, in the language that is shown.
@@ -100,7 +101,7 @@ fn first_pictures(flow: &mut Flow, sketches: &[Sketch], pictures: &Pictures) {
                 true => tr("the flat pieces are shown in their place"),
                 false => tr("the pieces are drawn below"),
             };
-            let why = words::told(&words::line(why));
+            let why = words::line(&said(why));
             let words = say!("There are no pictures of the garment, as {why}; {instead}.", why, instead);
             flow.words(&words, Ink::Grey);
         }
@@ -108,7 +109,7 @@ fn first_pictures(flow: &mut Flow, sketches: &[Sketch], pictures: &Pictures) {
 }
 
 fn notes(flow: &mut Flow, pack: &Pack) {
-    let mut notes: Vec<String> = pack.notes.iter().map(|note| words::told(&words::line(note))).collect();
+    let mut notes: Vec<String> = pack.notes.iter().map(|note| words::line(&said(note))).collect();
     let pieces = pack.pieces.iter().flat_map(|row| &row.names);
     let mut names = pieces.chain(&pack.sizes).chain([&pack.name]);
     if !names.all(|name| flow.letters().have(&words::name(name))) {
@@ -135,7 +136,7 @@ fn names_of(pack: &Pack, pieces: &[u32]) -> String {
 
 fn cloth_row(pack: &Pack, letter: String, cloth: &Cloth) -> Vec<Cell> {
     let image = || Some(say!("image {name}", name = words::name(cloth.image.as_ref()?)));
-    let printed = cloth.print.as_deref().map(words::told).or_else(image);
+    let printed = cloth.print.as_ref().map(said).or_else(image);
     let colour = match cloth.colour {
         Some(colour) => Cell { words: words::colour(colour), swatch: Some(colour) },
         None => tr("not chosen").into(),
@@ -210,11 +211,11 @@ fn needed(flow: &mut Flow, pack: &Pack) {
         flow.table(&table);
     }
     for (i, cloth) in pack.cloths.iter().enumerate() {
-        let mut told: Vec<&str> = Vec::new();
-        for why in cloth.taken.iter().filter_map(|taken| taken.why.as_deref()) {
-            if !told.contains(&why) {
-                told.push(why);
-                let why = words::told(&words::line(why));
+        let mut known: Vec<&Words> = Vec::new();
+        for why in cloth.taken.iter().filter_map(|taken| taken.why.as_ref()) {
+            if !known.contains(&why) {
+                known.push(why);
+                let why = words::line(&said(why));
                 flow.item(&say!("Cloth {name}: {why}.", name = pack.cloth_name(i), why));
             }
         }
@@ -388,9 +389,9 @@ fn trims(flow: &mut Flow, pack: &Pack) {
             row.piece.to_string().into(),
             words::name(&row.piece_name).into(),
             words::worked(row.what).into(),
-            row.places.iter().map(|place| words::place(place)).collect::<Vec<_>>().join(", ").into(),
+            row.places.iter().map(said).collect::<Vec<_>>().join(", ").into(),
             row.length.map(cm).unwrap_or_default().into(),
-            coloured(words::measure(&row.measures), row.colour),
+            coloured(said(&row.measures), row.colour),
         ]
     };
     table.rows = pack.trims.iter().map(row).collect();
@@ -405,7 +406,7 @@ fn supplies(flow: &mut Flow, pack: &Pack) {
     let mut table = Table::new([tr("What"), tr("Colour"), &figures(tr("Count")), &figures(tr("Length, cm"))]);
     let row = |supply: &crate::pack::trims::Supply| -> Vec<Cell> {
         vec![
-            words::told(&supply.what).into(),
+            said(&supply.what).into(),
             supply.colour.map_or_else(|| NONE.into(), |own| coloured(words::colour(own), Some(own))),
             supply.count.map(|count| count.to_string()).unwrap_or_default().into(),
             supply.length.map(cm).unwrap_or_default().into(),
@@ -429,7 +430,7 @@ fn seams(flow: &mut Flow, pack: &Pack) {
         tr("To be sewn"),
     ]);
     let row = |seam: &crate::pack::seams::SeamRow| -> Vec<Cell> {
-        let edge = |k: usize| words::place(&seam.sides[k].edge);
+        let edge = |k: usize| said(&seam.sides[k].edge);
         let side = |k: usize| format!("{}, {}", words::name(&seam.sides[k].piece), edge(k));
         let length = |k: usize| seam.lengths()[k].map_or_else(|| NONE.to_owned(), cm);
         let zip = if seam.zip { tr(", with a zip") } else { "" };
@@ -467,12 +468,8 @@ fn sizes(flow: &mut Flow, pack: &Pack, pattern: &Pattern) {
         flow.heading(tr("Seams in each size: length of the first side, cm"));
         let row = |(i, seam): (usize, &crate::pack::seams::SeamRow)| -> Vec<Cell> {
             let side = &seam.sides[0];
-            let name = Cell::from(format!(
-                "{} {}, {}",
-                seam.seam,
-                words::name(&side.piece),
-                words::place(&side.edge)
-            ));
+            let name =
+                Cell::from(format!("{} {}, {}", seam.seam, words::name(&side.piece), said(&side.edge)));
             let length = |length: Option<f64>| Cell::from(length.map_or_else(|| NONE.to_owned(), cm));
             std::iter::once(name).chain(sizes.iter().map(|own| length(own.seams[i]))).collect()
         };

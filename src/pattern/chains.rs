@@ -1,10 +1,10 @@
-//! Internal lines that the mesh follows, sampled as chains of points: fold lines.
+//! Internal lines that the mesh follows, sampled as chains of points: fold lines, wrinkles and others.
 
 use glam::DVec2;
 
 use crate::geometry::polygon::distance_to_segment;
 use crate::pattern::cut::LINE_TOUCHES;
-use crate::pattern::{Piece, curve};
+use crate::pattern::{InternalLine, Piece, curve};
 
 /// Distance from a place where lines meet, or from the outline, within which other points of a line are left out, in edge lengths.
 const CLEARANCE: f64 = 0.35;
@@ -32,9 +32,9 @@ struct Node {
     stays: bool,
 }
 
-/// The links of all lines of `piece` that the mesh must follow, about `edge_length` metres long. Where lines meet they have a
-/// common point. `outline` holds the sides of the sampled closed lines and `inside` tells what they enclose; what is outside is
-/// left out.
+/// The links of all lines of `piece` that the mesh must follow, about `edge_length` metres long, shorter in narrow wrinkles. Where
+/// lines meet they have a common point. `outline` holds the sides of the sampled closed lines and `inside` tells what they enclose;
+/// what is outside is left out.
 pub fn links(
     piece: &Piece,
     edge_length: f64,
@@ -42,7 +42,8 @@ pub fn links(
     inside: impl Fn(DVec2) -> bool,
 ) -> Vec<Link> {
     let lines: Vec<usize> = (0..piece.lines.len()).filter(|&k| piece.lines[k].needs_mesh()).collect();
-    let mut chains: Vec<Vec<Node>> = lines.iter().map(|&k| sampled(piece, k, edge_length, outline)).collect();
+    let mut chains: Vec<Vec<Node>> =
+        lines.iter().map(|&k| sampled(&piece.lines[k], edge_length, outline)).collect();
     for i in 0..chains.len() {
         for j in 0..i {
             let (before, from) = chains.split_at_mut(i);
@@ -51,7 +52,7 @@ pub fn links(
     }
     let mut links = Vec::new();
     for (&line, chain) in lines.iter().zip(&chains) {
-        let chain = thinned(chain, edge_length * CLEARANCE, outline);
+        let chain = thinned(chain, spacing(&piece.lines[line], edge_length) * CLEARANCE, outline);
         for pair in chain.windows(2) {
             let ends = [pair[0].at, pair[1].at];
             let is_free = outline.iter().all(|side| crossing(ends, *side).is_none());
@@ -64,14 +65,19 @@ pub fn links(
     links
 }
 
-/// Points on line `k`; its ends are moved to points of the outline that are near.
-fn sampled(piece: &Piece, k: usize, edge_length: f64, outline: &[[DVec2; 2]]) -> Vec<Node> {
-    let line = &piece.lines[k];
+/// Length of the links of a line, metres: `edge_length`, or shorter as its narrowest wrinkle needs.
+fn spacing(line: &InternalLine, edge_length: f64) -> f64 {
+    let wrinkles = line.edges.iter().filter_map(|edge| edge.trims.wrinkle);
+    wrinkles.map(|wrinkle| wrinkle.spacing()).fold(edge_length, f64::min)
+}
+
+/// Points on a line; its ends are moved to points of the outline that are near.
+fn sampled(line: &InternalLine, edge_length: f64, outline: &[[DVec2; 2]]) -> Vec<Node> {
+    let spacing = spacing(line, edge_length);
     let mut nodes = Vec::new();
     for (i, edge) in line.edges.iter().enumerate() {
         let end = line.edge_end(i);
-        let count =
-            ((curve::exact_length(edge.start, edge.shape, end) / edge_length).round() as usize).max(1);
+        let count = ((curve::exact_length(edge.start, edge.shape, end) / spacing).round() as usize).max(1);
         let fractions: Vec<f64> = (0..count).map(|n| n as f64 / count as f64).collect();
         let points = curve::points(edge.start, edge.shape, end, &fractions);
         nodes.extend(points.into_iter().enumerate().map(|(n, at)| Node { at, edge: i, stays: n == 0 }));

@@ -4,8 +4,10 @@ use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use crate::geometry::ids::{PieceId, SeamId};
+use crate::geometry::words::{Words, words};
+use crate::pattern::wrinkles::EDGES_ACROSS;
 use crate::pattern::{
-    Edge, EdgeRef, EdgeSeam, Pattern, Piece, Problem, ProblemKind, Seam, Stretch, curve, naming,
+    Edge, EdgeRef, EdgeSeam, Pattern, Piece, Problem, ProblemKind, Seam, Stretch, Wrinkle, curve, naming,
 };
 
 /// Distance along an edge within which two places count as one, metres.
@@ -67,10 +69,10 @@ impl CutPattern {
                 }
                 Err(side) => problems.push(Problem {
                     kind: ProblemKind::SeamToNothing,
-                    place: id.to_string(),
-                    words: format!(
-                        "it sews a stretch of {}, which is not there; delete or redraw the seam",
-                        naming::place(pattern, side.first_edge())
+                    place: id.into(),
+                    words: words!(
+                        "it sews a stretch of {place}, which is not there; delete or redraw the seam",
+                        place = naming::place(pattern, side.first_edge())
                     ),
                 }),
             }
@@ -102,11 +104,13 @@ impl CutPattern {
     }
 
     /// Describes an edge by its number in the pattern: "front (piece 1), edge 3".
-    pub fn place(&self, edge: EdgeRef) -> String {
+    pub fn place(&self, edge: EdgeRef) -> Words {
         let edge = self.origin(edge);
         match self.pieces.get(&edge.piece) {
-            Some(piece) => format!("{} ({}), edge {}", piece.name, edge.piece, edge.edge),
-            None => format!("{}, edge {}", edge.piece, edge.edge),
+            Some(piece) => {
+                words!("{name} ({piece}), edge {n}", name = piece.name, piece = edge.piece, n = edge.edge)
+            }
+            None => words!("{piece}, edge {n}", piece = edge.piece, n = edge.edge),
         }
     }
 
@@ -165,10 +169,10 @@ impl CutPattern {
         let (Some(one), Some(mut other)) = (side(0), side(1)) else {
             problems.push(Problem {
                 kind: ProblemKind::EdgeSewnTwice,
-                place: id.to_string(),
-                words: format!(
-                    "part of {} is sewn a second time; the seam was left out",
-                    naming::place(pattern, seam.sides[0].first_edge())
+                place: id.into(),
+                words: words!(
+                    "part of {place} is sewn a second time; the seam was left out",
+                    place = naming::place(pattern, seam.sides[0].first_edge())
                 ),
             });
             return;
@@ -208,28 +212,45 @@ type Firsts = BTreeMap<PieceId, Vec<(usize, Vec<f64>)>>;
 /// For an edge of a piece the fractions of its arc length at which it is split.
 type Splits = BTreeMap<(PieceId, usize), Vec<f64>>;
 
-/// Where lines that the mesh follows end on edges, farther than [`LINE_TOUCHES`] from the ends of the edge and from each other.
+/// Where lines that the mesh follows end on edges, farther than [`LINE_TOUCHES`] from the ends of the edge and from each other; with
+/// a wrinkle also where its rows of points end, so that the edge has points there.
 fn line_ends(pattern: &Pattern) -> Splits {
     let mut ends = Splits::new();
     for (&id, piece) in &pattern.pieces {
         for line in piece.lines.iter().filter(|line| line.needs_mesh()) {
-            for p in line.edges.first().map(|edge| edge.start).into_iter().chain([line.end]) {
+            let first = line.edges.first().map(|edge| (edge.start, edge.trims.wrinkle));
+            let last = line.edges.last().map(|edge| (line.end, edge.trims.wrinkle));
+            for (p, wrinkle) in first.into_iter().chain(last) {
                 let near =
                     (0..piece.edge_count()).map(|edge| (edge, curve::nearest(&piece.edge_segments(edge), p)));
                 let Some((edge, (at, distance))) = near.min_by(|a, b| a.1.1.total_cmp(&b.1.1)) else {
                     continue;
                 };
+                if distance > LINE_TOUCHES {
+                    continue;
+                }
                 let length = piece.edge_length(edge);
-                let inside = at * length > LINE_TOUCHES && (1.0 - at) * length > LINE_TOUCHES;
-                let of_edge = || ends.get(&(id, edge)).into_iter().flatten();
-                let is_new = of_edge().all(|other| (at - other).abs() * length > LINE_TOUCHES);
-                if distance <= LINE_TOUCHES && inside && is_new {
-                    ends.entry((id, edge)).or_default().push(at);
+                for at in rows(wrinkle).map(|beside| at + beside / length) {
+                    let inside = at * length > LINE_TOUCHES && (1.0 - at) * length > LINE_TOUCHES;
+                    let of_edge = || ends.get(&(id, edge)).into_iter().flatten();
+                    let is_new = of_edge().all(|other| (at - other).abs() * length > LINE_TOUCHES);
+                    if inside && is_new {
+                        ends.entry((id, edge)).or_default().push(at);
+                    }
                 }
             }
         }
     }
     ends
+}
+
+/// Where a line with this wrinkle puts points on the edge that it ends on: how far beside its end, metres. First the end itself.
+fn rows(wrinkle: Option<Wrinkle>) -> impl Iterator<Item = f64> {
+    let beside = wrinkle.into_iter().flat_map(|wrinkle| {
+        let most = (EDGES_ACROSS / 2.0) as i32;
+        (1..=most).flat_map(move |k| [1.0, -1.0].map(|side| side * f64::from(k) * wrinkle.row()))
+    });
+    std::iter::once(0.0).chain(beside)
 }
 
 /// The seams as they are sewn: of a zip only what is closed.

@@ -4,6 +4,7 @@ use glam::DVec2;
 use serde::{Deserialize, Serialize};
 
 use crate::geometry::ids::PieceId;
+use crate::geometry::words::{Words, words};
 
 /// Range of the diameter of a button, metres.
 pub const BUTTON_DIAMETERS: std::ops::RangeInclusive<f64> = 0.003..=0.08;
@@ -47,10 +48,16 @@ impl Button {
     }
 
     /// What is out of range, in words.
-    pub fn problem(&self) -> Option<String> {
+    pub fn problem(&self) -> Option<Words> {
         let (least, most) = (BUTTON_DIAMETERS.start(), BUTTON_DIAMETERS.end());
-        (!BUTTON_DIAMETERS.contains(&self.diameter))
-            .then(|| format!("a button measures {least} to {most} m, not {}", self.diameter))
+        (!BUTTON_DIAMETERS.contains(&self.diameter)).then(|| {
+            words!(
+                "a button measures {least} to {most} m, not {diameter}",
+                least,
+                most,
+                diameter = self.diameter
+            )
+        })
     }
 }
 
@@ -84,9 +91,9 @@ impl Zip {
     }
 
     /// What is out of range, in words.
-    pub fn problem(&self) -> Option<String> {
+    pub fn problem(&self) -> Option<Words> {
         (!(0.0..=1.0).contains(&self.open))
-            .then(|| format!("the open share of a zip is 0 to 1, not {}", self.open))
+            .then(|| words!("the open share of a zip is 0 to 1, not {open}", open = self.open))
     }
 }
 

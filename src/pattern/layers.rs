@@ -6,6 +6,7 @@ use std::sync::Arc;
 use glam::DVec2;
 
 use crate::geometry::ids::PieceId;
+use crate::geometry::words::{Words, words};
 use crate::pattern::edit::grading::take_run;
 use crate::pattern::{Pattern, Piece};
 
@@ -22,10 +23,10 @@ impl Pattern {
 
     /// Adds the pieces and seams of `garment`, on layers over those of this pattern and beside it on the table. A piece
     /// whose name is taken gets `name` as a prefix. Err: a message, where the layers would exceed [`MOST_LAYER`].
-    pub fn wear_over(&mut self, garment: &Pattern, name: &str) -> Result<(), String> {
+    pub fn wear_over(&mut self, garment: &Pattern, name: &str) -> Result<(), Words> {
         let first = if self.pieces.is_empty() { 0 } else { self.outermost() + 1 };
         if first.saturating_add(garment.outermost()) > MOST_LAYER {
-            return Err(format!("no more than {} layers can be worn", MOST_LAYER + 1));
+            return Err(words!("no more than {most} layers can be worn", most = MOST_LAYER + 1));
         }
         if self.sizes.is_empty() {
             self.sizes = garment.sizes.clone();

@@ -18,6 +18,7 @@ pub mod space;
 pub mod stitches;
 pub mod triangulate;
 pub mod trims;
+pub mod wrinkles;
 
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -35,7 +36,7 @@ pub use piece::{InternalLine, Notch, Piece, PlanePose};
 pub use seam::{EdgeRef, EdgeSeam, Seam, Stretch};
 pub use space::{Roll, SpacePose};
 pub use triangulate::PieceMesh;
-pub use trims::{Elastic, Fold, Hem, Piping, Topstitch, Trims};
+pub use trims::{Elastic, Fold, Hem, Piping, Topstitch, Trims, Wrinkle};
 
 /// A pattern: pieces and the seams between them. Ids come from `next_id` and are never used twice.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]

@@ -3,6 +3,7 @@
 use std::collections::BTreeMap;
 
 use crate::geometry::ids::{PieceId, SeamId};
+use crate::geometry::words::{decimal, words};
 use crate::pattern::{CutPattern, EdgeRef, EdgeSeam, Problem, ProblemKind};
 
 /// Fraction by which the lengths of a seam's sides may differ before the seam is reported.
@@ -53,7 +54,7 @@ fn report_short_edges(
                 problems.push(Problem {
                     kind: ProblemKind::ZeroLength,
                     place: pattern.place(EdgeRef { piece: *id, edge }),
-                    words: "this edge has no length; delete one of its end points".to_owned(),
+                    words: words!("this edge has no length; delete one of its end points"),
                 });
             }
         }
@@ -73,10 +74,10 @@ fn sound_seams(
         {
             problems.push(Problem {
                 kind: ProblemKind::SeamToNothing,
-                place: id.to_string(),
-                words: format!(
-                    "it sews {}, which is not there; delete or redraw the seam",
-                    pattern.place(*missing)
+                place: id.into(),
+                words: words!(
+                    "it sews {place}, which is not there; delete or redraw the seam",
+                    place = pattern.place(*missing)
                 ),
             });
             continue;
@@ -85,7 +86,7 @@ fn sound_seams(
             problems.push(Problem {
                 kind: ProblemKind::EdgeSewnTwice,
                 place: pattern.place(twice),
-                words: format!("{id} sews this edge a second time and was left out"),
+                words: words!("{id} sews this edge a second time and was left out", id),
             });
             continue;
         }
@@ -95,12 +96,17 @@ fn sound_seams(
         if long > short * (1.0 + UNEQUAL) {
             problems.push(Problem {
                 kind: ProblemKind::UnequalSeam,
-                place: format!("{id}: {} and {}", pattern.place(seam.sides[0]), pattern.place(seam.sides[1])),
-                words: format!(
-                    "its sides are {:.1} and {:.1} cm long; the longer is gathered {:.2}:1",
-                    a * 100.0,
-                    b * 100.0,
-                    long / short
+                place: words!(
+                    "{id}: {a} and {b}",
+                    id,
+                    a = pattern.place(seam.sides[0]),
+                    b = pattern.place(seam.sides[1])
+                ),
+                words: words!(
+                    "its sides are {a} and {b} cm long; the longer is gathered {ratio}:1",
+                    a = decimal(a * 100.0, 1),
+                    b = decimal(b * 100.0, 1),
+                    ratio = decimal(long / short, 2)
                 ),
             });
         }
@@ -117,8 +123,8 @@ fn report_unsewn(pattern: &CutPattern, seams: &[(SeamId, EdgeSeam)], problems: &
         if !seams.iter().any(|(_, s)| s.sides.iter().any(|side| side.piece == *id)) {
             problems.push(Problem {
                 kind: ProblemKind::PieceUnsewn,
-                place: format!("{} ({id})", piece.name),
-                words: "no seam holds this piece".to_owned(),
+                place: words!("{name} ({id})", name = piece.name, id),
+                words: words!("no seam holds this piece"),
             });
         }
     }

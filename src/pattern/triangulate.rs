@@ -8,14 +8,21 @@ use spade::{AngleLimit, ConstrainedDelaunayTriangulation, Point2, RefinementPara
 
 use crate::geometry::ids::PieceId;
 use crate::geometry::polygon::{contains, distance_to_segment, first_crossing, is_inside, signed_area};
+use crate::geometry::words::{Words, words};
 use crate::pattern::chains::{Link, links};
 use crate::pattern::sampling::Sampling;
+use crate::pattern::wrinkles::{self, Ridge};
 use crate::pattern::{CutPattern, Edge, EdgeRef, EdgeShape, InternalLine, Piece, Problem, ProblemKind};
 
 /// Smallest angle that refinement aims at, degrees; sharp corners of the outline keep theirs.
 const SMALLEST_ANGLE_DEG: f64 = 27.0;
 /// Clearance between lattice points and the outline, in edge lengths; nearer lattice points are left out.
 const LATTICE_CLEARANCE: f64 = 0.62;
+/// Clearance of points of wrinkles from edges of outline and lines, in lengths of those: nearer ones would make slivers with them,
+/// which are not split.
+const EDGE_CLEARANCE: f64 = 0.3;
+/// Most points that the finer mesh of the wrinkles of one piece may have.
+const MOST_WRINKLE_POINTS: f64 = 1e5;
 /// Most points that the outline of one piece may have.
 const MOST_OUTLINE_POINTS: usize = 100_000;
 /// Most triangles that one piece may have.
@@ -103,8 +110,9 @@ fn is_cut_alike(one: &Piece, other: &Piece) -> bool {
         piece.lines.iter().filter(|line| line.needs_mesh()).cloned().collect()
     };
     let is_line = |a: &InternalLine, b: &InternalLine| {
-        let needs = |line: &InternalLine| -> Vec<bool> {
-            line.edges.iter().map(|edge| edge.trims.needs_mesh()).collect()
+        let needs = |line: &InternalLine| -> Vec<(bool, Option<f64>)> {
+            let width = |edge: &Edge| edge.trims.wrinkle.map(|wrinkle| wrinkle.width);
+            line.edges.iter().map(|edge| (edge.trims.needs_mesh(), width(edge))).collect()
         };
         is_alike(&a.edges, &b.edges) && a.end == b.end && needs(a) == needs(b)
     };
@@ -126,21 +134,21 @@ fn piece_mesh(
     intervals: &[usize],
     edge_length: f64,
 ) -> Result<PieceMesh, Problem> {
-    let fault = |kind, words: &str| Problem {
-        kind,
-        place: format!("{} ({id})", piece.name),
-        words: words.to_owned(),
-    };
+    let fault =
+        |kind, words: Words| Problem { kind, place: words!("{name} ({id})", name = piece.name, id), words };
     if piece.outline.len() < 2 {
-        return Err(fault(ProblemKind::ZeroLength, "its outline has fewer than two edges"));
+        return Err(fault(ProblemKind::ZeroLength, words!("its outline has fewer than two edges")));
     }
     if !is_finite(piece) {
-        return Err(fault(ProblemKind::NotTriangulated, "its outline has coordinates that are not numbers"));
+        return Err(fault(
+            ProblemKind::NotTriangulated,
+            words!("its outline has coordinates that are not numbers"),
+        ));
     }
     let too_fine = || {
         fault(
             ProblemKind::NotTriangulated,
-            "it would need more than two million triangles; raise the edge length",
+            words!("it would need more than two million triangles; raise the edge length"),
         )
     };
     if intervals.iter().fold(0, |sum: usize, n| sum.saturating_add(*n)) > MOST_OUTLINE_POINTS {
@@ -150,34 +158,47 @@ fn piece_mesh(
     let (outline, edge_points) = (lines.of_loop(0), &lines.edge_points);
     let extent = outline.iter().fold(0.0f64, |m, p| m.max((*p - outline[0]).length()));
     if is_straight(outline, extent) {
-        return Err(fault(ProblemKind::ZeroLength, "it has no area"));
+        return Err(fault(ProblemKind::ZeroLength, words!("it has no area")));
     }
     if let Some((i, j)) = lines.crossing() {
         let (a, b) = (edge_of(edge_points, i), edge_of(edge_points, j));
         return Err(Problem {
             kind: ProblemKind::SelfCrossing,
             place: pattern.place(EdgeRef { piece: id, edge: a }),
-            words: format!("the outline crosses itself: edge {a} meets edge {b}; move their points apart"),
+            words: words!(
+                "the outline crosses itself: edge {a} meets edge {b}; move their points apart",
+                a,
+                b
+            ),
         });
     }
     if let Some(fault) = lines.misplaced_hole() {
         return Err(Problem {
             kind: ProblemKind::NotTriangulated,
-            place: format!("{} ({id})", piece.name),
+            place: words!("{name} ({id})", name = piece.name, id),
             words: fault,
         });
     }
     let area = signed_area(outline);
     if area.abs() < 1e-9 || area.abs() < extent * extent * 1e-6 {
-        return Err(fault(ProblemKind::ZeroLength, "it has no area"));
+        return Err(fault(ProblemKind::ZeroLength, words!("it has no area")));
     }
     if area.abs() / (edge_length * edge_length * 0.433) > MOST_TRIANGLES {
         return Err(too_fine());
     }
+    let ridges = wrinkles::ridges(piece);
+    let fine = ridges.iter().filter(|ridge| ridge.is_fine(edge_length)).map(Ridge::count).sum::<f64>();
+    if fine > MOST_WRINKLE_POINTS || fine.is_nan() {
+        let words =
+            words!("its wrinkles would need more than a hundred thousand points; make them wider or shorter");
+        return Err(fault(ProblemKind::NotTriangulated, words));
+    }
     let within: Vec<[DVec2; 2]> = (0..lines.points.len()).map(|i| lines.segment(i).into()).collect();
     let links = links(piece, edge_length, &within, |p| is_inside(within.iter().copied(), p));
-    let (points, mut triangles, line_edges) = refined(&lines, &links, edge_length)
-        .ok_or_else(|| fault(ProblemKind::NotTriangulated, "its outline could not be triangulated"))?;
+    let (points, mut triangles, line_edges) =
+        refined(&lines, &links, &ridges, edge_length).ok_or_else(|| {
+            fault(ProblemKind::NotTriangulated, words!("its outline could not be triangulated"))
+        })?;
     let front_is_far = area < 0.0;
     if front_is_far {
         for t in &mut triangles {
@@ -257,16 +278,16 @@ impl Lines {
     }
 
     /// Describes a hole that lies outside the outline or inside another hole; assumes that the lines do not cross.
-    fn misplaced_hole(&self) -> Option<String> {
+    fn misplaced_hole(&self) -> Option<Words> {
         let inside = |k: usize, p: DVec2| contains(self.of_loop(k), p);
         let holes = 1..self.starts.len() - 1;
         holes.clone().find_map(|k| {
             let p = *self.of_loop(k).first()?;
             if !inside(0, p) {
-                return Some(format!("hole {k} lies outside its outline; move it back"));
+                return Some(words!("hole {k} lies outside its outline; move it back", k));
             }
             let other = holes.clone().find(|&other| other != k && inside(other, p))?;
-            Some(format!("hole {k} lies inside hole {other}; delete it"))
+            Some(words!("hole {k} lies inside hole {other}; delete it", k, other))
         })
     }
 }
@@ -278,8 +299,8 @@ fn edge_of(edge_points: &[Vec<u32>], segment: usize) -> usize {
 /// Points, those of the outline first; triangles, counter-clockwise in the drawing; edges along internal lines.
 type Refined = (Vec<DVec2>, Vec<[u32; 3]>, Vec<LineEdge>);
 
-/// Refined triangulation with edges along `links`.
-fn refined(lines: &Lines, links: &[Link], edge_length: f64) -> Option<Refined> {
+/// Refined triangulation with edges along `links`, finer in `ridges`.
+fn refined(lines: &Lines, links: &[Link], ridges: &[Ridge], edge_length: f64) -> Option<Refined> {
     let outline = &lines.points;
     let mut cdt = ConstrainedDelaunayTriangulation::<Point2<f64>>::new();
     let mut handles = Vec::with_capacity(outline.len());
@@ -309,7 +330,7 @@ fn refined(lines: &Lines, links: &[Link], edge_length: f64) -> Option<Refined> {
         }
     }
     let keep = cdt.num_vertices();
-    for p in lattice(lines, links, edge_length) {
+    for p in inner_points(lines, links, ridges, edge_length) {
         cdt.insert(Point2::new(p.x, p.y)).ok()?;
     }
     // What open lines enclose would count as a hole, so that with them the surroundings are refined, too: faces between a nearly
@@ -391,6 +412,31 @@ fn only_used(points: Vec<DVec2>, mut triangles: Vec<[u32; 3]>, keep: usize) -> (
         *v = renamed[*v as usize];
     }
     (kept, triangles)
+}
+
+/// Points inside the outline: an equilateral lattice, and in wrinkles that need a finer one rows along them.
+fn inner_points(lines: &Lines, links: &[Link], ridges: &[Ridge], edge_length: f64) -> Vec<DVec2> {
+    let mut points = lattice(lines, links, edge_length);
+    let fine: Vec<&Ridge> = ridges.iter().filter(|ridge| ridge.is_fine(edge_length)).collect();
+    if fine.is_empty() {
+        return points;
+    }
+    let is_near = |p: DVec2, ridge: &Ridge| {
+        ridge.distance(p) < ridge.wrinkle.width / 2.0 + edge_length * LATTICE_CLEARANCE
+    };
+    points.retain(|&p| !fine.iter().any(|ridge| is_near(p, ridge)));
+    let outline: Vec<[DVec2; 2]> = (0..lines.points.len()).map(|i| lines.segment(i).into()).collect();
+    let is_free = |p: DVec2, row: f64| {
+        let clears = |&[a, b]: &[DVec2; 2]| {
+            let clearance = (row * LATTICE_CLEARANCE).max(a.distance(b) * EDGE_CLEARANCE);
+            distance_to_segment(p, a, b) >= clearance
+        };
+        outline.iter().all(clears)
+            && links.iter().all(|link| clears(&link.ends))
+            && is_inside(outline.iter().copied(), p)
+    };
+    points.extend(wrinkles::points(ridges, edge_length, is_free));
+    points
 }
 
 /// Points of an equilateral lattice inside the outline, with clearance from it and from `links`.

@@ -1,6 +1,8 @@
-//! Trims of edges and internal lines: fold lines (creases), elastic, topstitching, hems and piping.
+//! Trims of edges and internal lines: fold lines (creases), elastic, topstitching, hems, piping and wrinkles.
 
 use serde::{Deserialize, Serialize};
+
+use crate::geometry::words::{Words, words};
 
 /// Range of the strength of a fold line, N: moment per metre of the line and per radian.
 pub const FOLD_STRENGTHS: std::ops::RangeInclusive<f64> = 1e-5..=10.0;
@@ -12,6 +14,9 @@ pub const ELASTIC_TENSIONS: std::ops::RangeInclusive<f64> = 0.1..=1000.0;
 
 /// Range of the radius of piping, metres.
 pub const PIPING_RADII: std::ops::RangeInclusive<f64> = 0.0005..=0.006;
+
+/// Range of the width of a wrinkle, metres.
+pub const WRINKLE_WIDTHS: std::ops::RangeInclusive<f64> = 0.005..=0.1;
 
 /// What is worked along one edge of a closed line or of an internal line. Each edge carries its own, so that it follows when
 /// edges are split, mirrored or numbered anew.
@@ -33,6 +38,10 @@ pub struct Trims {
     /// A covered cord is sewn in along the line. Where both sides of a seam name one, the seam has one.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub piping: Option<Piping>,
+    /// The cloth is raised to a soft ridge along the line, or sunk to a valley. Only internal lines have one; on an edge of a closed
+    /// line it has no effect.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub wrinkle: Option<Wrinkle>,
 }
 
 /// Topstitching: rows of stitches along a line, on the cloth side of an edge.
@@ -78,6 +87,17 @@ pub struct Piping {
     pub colour: [u8; 3],
 }
 
+/// A wrinkle along a line: a soft ridge or valley whose profile across the line is H cos²(π d / W) at the distance d < W/2.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Wrinkle {
+    /// Width W across the line, metres of cloth, within [`WRINKLE_WIDTHS`].
+    pub width: f64,
+    /// Height H, metres, -W/2..=W/2: positive towards the outer (front) side. Cloth does not stretch to it, so that a steep wrinkle
+    /// is lower than this: at H = W/2, where its sides are upright, 3/4 as high ([`Wrinkle::risen`]).
+    pub height: f64,
+}
+
 /// Elastic sewn along a line: it gathers the cloth to its own length, and stretches up to that of the cloth.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -118,16 +138,22 @@ impl Fold {
     }
 
     /// What is out of range, in words.
-    pub fn problem(&self) -> Option<String> {
+    pub fn problem(&self) -> Option<Words> {
         if !(-std::f64::consts::PI..=std::f64::consts::PI).contains(&self.angle) {
-            return Some(format!(
-                "a fold has an angle of -180 to 180 degrees, not {}",
-                self.angle.to_degrees()
+            return Some(words!(
+                "a fold has an angle of -180 to 180 degrees, not {degrees}",
+                degrees = self.angle.to_degrees()
             ));
         }
         let (least, most) = (FOLD_STRENGTHS.start(), FOLD_STRENGTHS.end());
-        (!FOLD_STRENGTHS.contains(&self.strength))
-            .then(|| format!("the strength of a fold is {least} to {most} N, not {}", self.strength))
+        (!FOLD_STRENGTHS.contains(&self.strength)).then(|| {
+            words!(
+                "the strength of a fold is {least} to {most} N, not {strength}",
+                least,
+                most,
+                strength = self.strength
+            )
+        })
     }
 }
 
@@ -138,27 +164,30 @@ impl Elastic {
     pub const USUAL: Self = Self { ratio: 0.75, tension: Self::WAISTBAND };
 
     /// What is out of range, in words.
-    pub fn problem(&self) -> Option<String> {
-        let within = |what: &str, value: f64, range: &std::ops::RangeInclusive<f64>| {
+    pub fn problem(&self) -> Option<Words> {
+        let within = |what: Words, value: f64, range: &std::ops::RangeInclusive<f64>| {
             beyond(what, value, *range.start(), *range.end())
         };
-        within("the length ratio of elastic", self.ratio, &ELASTIC_RATIOS)
-            .or_else(|| within("the tension of elastic (N)", self.tension, &ELASTIC_TENSIONS))
+        within(words!("the length ratio of elastic"), self.ratio, &ELASTIC_RATIOS)
+            .or_else(|| within(words!("the tension of elastic (N)"), self.tension, &ELASTIC_TENSIONS))
     }
 }
 
 /// "WHAT is LEAST to MOST, not VALUE", where that is so.
-fn beyond(what: &str, value: f64, least: f64, most: f64) -> Option<String> {
-    (!(least..=most).contains(&value)).then(|| format!("{what} is {least} to {most}, not {value}"))
+fn beyond(what: Words, value: f64, least: f64, most: f64) -> Option<Words> {
+    (!(least..=most).contains(&value))
+        .then(|| words!("{what} is {least} to {most}, not {value}", what, least, most, value))
 }
 
 impl Topstitch {
     /// What is out of range, in words.
-    pub fn problem(&self) -> Option<String> {
-        beyond("the distance of topstitching (m)", self.distance, 0.0, 0.1)
-            .or_else(|| beyond("the length of a stitch (m)", self.length, 0.0005, 0.03))
-            .or_else(|| beyond("the number of rows of topstitching", f64::from(self.rows), 1.0, 6.0))
-            .or_else(|| beyond("the distance between rows of topstitching (m)", self.spacing, 0.0005, 0.05))
+    pub fn problem(&self) -> Option<Words> {
+        beyond(words!("the distance of topstitching (m)"), self.distance, 0.0, 0.1)
+            .or_else(|| beyond(words!("the length of a stitch (m)"), self.length, 0.0005, 0.03))
+            .or_else(|| beyond(words!("the number of rows of topstitching"), f64::from(self.rows), 1.0, 6.0))
+            .or_else(|| {
+                beyond(words!("the distance between rows of topstitching (m)"), self.spacing, 0.0005, 0.05)
+            })
     }
 }
 
@@ -167,8 +196,8 @@ impl Hem {
     pub const USUAL: Self = Self { width: 0.02, colour: None };
 
     /// What is out of range, in words.
-    pub fn problem(&self) -> Option<String> {
-        beyond("the width of a hem (m)", self.width, 0.003, 0.2)
+    pub fn problem(&self) -> Option<Words> {
+        beyond(words!("the width of a hem (m)"), self.width, 0.003, 0.2)
     }
 }
 
@@ -185,8 +214,38 @@ impl Piping {
     }
 
     /// What is out of range, in words.
-    pub fn problem(&self) -> Option<String> {
-        beyond("the radius of piping (m)", self.radius, *PIPING_RADII.start(), *PIPING_RADII.end())
+    pub fn problem(&self) -> Option<Words> {
+        beyond(words!("the radius of piping (m)"), self.radius, *PIPING_RADII.start(), *PIPING_RADII.end())
+    }
+}
+
+impl Wrinkle {
+    /// The wrinkle that a line is given first.
+    pub const USUAL: Self = Self { width: 0.04, height: 0.008 };
+
+    /// What is out of range, in words.
+    pub fn problem(&self) -> Option<Words> {
+        let half = self.width / 2.0;
+        beyond(
+            words!("the width of a wrinkle (m)"),
+            self.width,
+            *WRINKLE_WIDTHS.start(),
+            *WRINKLE_WIDTHS.end(),
+        )
+        .or_else(|| {
+            beyond(words!("the height of a wrinkle (m), at most half its width,"), self.height, -half, half)
+        })
+    }
+
+    /// The same with another width; the height stays at most half of it.
+    pub fn as_wide_as(self, width: f64) -> Self {
+        let width = width.clamp(*WRINKLE_WIDTHS.start(), *WRINKLE_WIDTHS.end());
+        Self { width, ..self }.as_high_as(self.height)
+    }
+
+    /// The same with another height, at most half its width.
+    pub fn as_high_as(self, height: f64) -> Self {
+        Self { height: height.clamp(-self.width / 2.0, self.width / 2.0), ..self }
     }
 }
 
@@ -198,7 +257,7 @@ impl Trims {
 
     /// Whether edges of the mesh must follow the line.
     pub fn needs_mesh(&self) -> bool {
-        self.fold.is_some() || self.elastic.is_some() || self.piping.is_some()
+        self.fold.is_some() || self.elastic.is_some() || self.piping.is_some() || self.wrinkle.is_some()
     }
 
     /// The trims that physics knows of.
@@ -212,13 +271,14 @@ impl Trims {
     }
 
     /// The first thing out of range, in words.
-    pub fn problem(&self) -> Option<String> {
-        let Self { fold, elastic, topstitch, hem, piping } = self;
+    pub fn problem(&self) -> Option<Words> {
+        let Self { fold, elastic, topstitch, hem, piping, wrinkle } = self;
         fold.and_then(|fold| fold.problem())
             .or_else(|| elastic.and_then(|elastic| elastic.problem()))
             .or_else(|| topstitch.and_then(|topstitch| topstitch.problem()))
             .or_else(|| hem.and_then(|hem| hem.problem()))
             .or_else(|| piping.and_then(|piping| piping.problem()))
+            .or_else(|| wrinkle.and_then(|wrinkle| wrinkle.problem()))
     }
 }
 
@@ -256,5 +316,33 @@ mod tests {
         let dyed = Trims { piping: Some(Piping { colour: [9; 3], ..Piping::USUAL }), ..Trims::default() };
         assert_eq!(dyed.physical(), of(Piping::USUAL.radius).physical());
         assert!(dyed.physical() != of(0.003).physical() && dyed.needs_mesh());
+    }
+
+    #[test]
+    fn a_wrinkle_is_kept_in_files_and_bad_ones_are_refused_in_words() {
+        let old = r#"{"start":[0.5,0.25],"shape":"line","trims":{"hem":{"width":0.02}}}"#;
+        let mut edge: Edge = serde_json::from_str(old).expect("an edge");
+        assert_eq!(edge.trims.wrinkle, None);
+        edge.trims.wrinkle = Some(Wrinkle { width: 0.03, height: -0.005 });
+        let text = serde_json::to_string(&edge).expect("text");
+        assert!(text.contains(r#""wrinkle":{"width":0.03,"height":-0.005}"#), "{text}");
+        assert_eq!(serde_json::from_str::<Edge>(&text).expect("an edge"), edge);
+        let of = |width, height| Trims { wrinkle: Some(Wrinkle { width, height }), ..Trims::default() };
+        for (width, height) in [(0.005, 0.0025), (0.1, -0.05), (0.04, 0.0)] {
+            assert_eq!(of(width, height).problem(), None);
+        }
+        for width in [0.0, 0.0049, 0.101, -0.04, f64::NAN, f64::INFINITY] {
+            let problem = of(width, 0.0).problem().expect("a problem");
+            assert!(problem.starts_with("the width of a wrinkle (m) is 0.005 to 0.1, not "), "{problem}");
+        }
+        for height in [0.0201, -0.0201, f64::NAN, f64::INFINITY] {
+            let problem = of(0.04, height).problem().expect("a problem");
+            let words = "the height of a wrinkle (m), at most half its width, is -0.02 to 0.02, not ";
+            assert!(problem.starts_with(words), "{problem}");
+        }
+        let steep = Wrinkle { width: 0.04, height: 0.02 };
+        assert_eq!(steep.as_wide_as(0.01), Wrinkle { width: 0.01, height: 0.005 });
+        assert_eq!(steep.as_high_as(-1.0), Wrinkle { width: 0.04, height: -0.02 });
+        assert!(of(0.04, 0.01).needs_mesh() && of(0.04, 0.01).physical() == of(0.04, 0.01));
     }
 }

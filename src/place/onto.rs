@@ -8,6 +8,7 @@ use glam::{DQuat, DVec3};
 use crate::body::{Surface, Trunk};
 use crate::contact::Bone;
 use crate::geometry::ids::PieceId;
+use crate::geometry::words::{Words, decimal, words};
 use crate::pattern::{CutPattern, EdgeRef, Pattern, SpacePose};
 use crate::place::limbs::{Part, limbs};
 use crate::wrap::{Stand, stand};
@@ -37,7 +38,7 @@ pub struct Moved {
     /// Placements of the pieces that move.
     pub placements: Vec<(PieceId, Option<SpacePose>)>,
     /// Messages such as "raised by 1.10 m" or "left sleeve turned by 47°".
-    pub words: Vec<String>,
+    pub words: Vec<Words>,
 }
 
 impl Moved {
@@ -106,8 +107,11 @@ pub fn onto(pattern: &Pattern, surface: &Surface, bones: &[Bone], offset: f64) -
         for id in &group.pieces {
             poses.entry(*id).and_modify(|pose| *pose = pose.moved(turn, group.armhole, by));
         }
-        let side = if left { "left" } else { "right" };
-        words.push(format!("{side} sleeve turned by {:.0}°", angle.to_degrees()));
+        let n = decimal(angle.to_degrees(), 0);
+        words.push(match left {
+            true => words!("left sleeve turned by {n}°", n),
+            false => words!("right sleeve turned by {n}°", n),
+        });
     }
     let changed = poses.into_iter().filter(|(id, pose)| before.get(id) != Some(pose));
     Moved { placements: changed.map(|(id, pose)| (id, Some(pose))).collect(), words }
@@ -150,16 +154,20 @@ fn waist(trunk: &Trunk) -> DVec3 {
     DVec3::new(trunk.middle, level.height, (spans.0 + spans.1) / 2.0)
 }
 
-fn told(by: DVec3) -> Vec<String> {
-    let ways = [["to the right", "to the left"], ["lowered", "raised"], ["back", "forward"]];
-    let words = |(axis, [less, more]): (usize, [&str; 2])| {
-        let way = if by[axis] < 0.0 { less } else { more };
-        (by[axis] != 0.0).then(|| match axis {
-            1 => format!("{way} by {:.2} m", by[axis].abs()),
-            _ => format!("moved {way} by {:.2} m", by[axis].abs()),
-        })
+fn told(by: DVec3) -> Vec<Words> {
+    let way = |axis: usize| {
+        let m = decimal(by[axis].abs(), 2);
+        match (axis, by[axis] < 0.0) {
+            _ if by[axis] == 0.0 => None,
+            (0, true) => Some(words!("moved to the right by {m} m", m)),
+            (0, false) => Some(words!("moved to the left by {m} m", m)),
+            (1, true) => Some(words!("lowered by {m} m", m)),
+            (1, false) => Some(words!("raised by {m} m", m)),
+            (_, true) => Some(words!("moved back by {m} m", m)),
+            (_, false) => Some(words!("moved forward by {m} m", m)),
+        }
     };
-    ways.into_iter().enumerate().filter_map(words).collect()
+    (0..3).filter_map(way).collect()
 }
 
 /// The pieces round one arm.

@@ -10,6 +10,7 @@ use serde::{Deserialize, Serialize, Serializer};
 
 use crate::body::{Imported, Unit, UpAxis};
 use crate::geometry::mesh::TriMesh;
+use crate::geometry::words::{Words, words};
 use crate::io::gltf;
 use crate::io::moving_body::MovingBody;
 use crate::session::body_choice::BodyChoice;
@@ -88,13 +89,19 @@ impl Animations {
     }
 
     /// The body under the name `name` at a moment; at rest without one. The error says in words that there is no such moment.
-    pub fn body(&self, name: &str, at: Option<Moment>) -> Result<BodyChoice, String> {
+    pub fn body(&self, name: &str, at: Option<Moment>) -> Result<BodyChoice, Words> {
         if let Some(Moment { animation, seconds }) = at {
             let length = self.seconds(animation);
-            let length =
-                length.ok_or_else(|| format!("{} has no animation {}", self.name(), animation + 1))?;
+            let length = length.ok_or_else(|| {
+                words!("{name} has no animation {n}", name = self.name(), n = animation + 1)
+            })?;
             if !(0.0..=length).contains(&seconds) {
-                return Err(format!("animation {} lasts from 0 to {length} s, not {seconds}", animation + 1));
+                return Err(words!(
+                    "animation {n} lasts from 0 to {length} s, not {seconds}",
+                    n = animation + 1,
+                    length,
+                    seconds
+                ));
             }
         }
         let positions = self.body.positions(at.map(|at| (at.animation, at.seconds)));

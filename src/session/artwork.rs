@@ -11,6 +11,7 @@ use image::RgbaImage;
 use serde::{Deserialize, Serialize};
 
 use crate::geometry::ids::{GraphicId, ImageId, PieceId};
+use crate::geometry::words::{Words, words};
 use crate::io::picture;
 
 /// Range of the width of a graphic and of a repeat of an image, metres.
@@ -140,12 +141,12 @@ impl Graphic {
         Self { at, width_m: self.width_m.clamp(least, most), ..self }
     }
 
-    fn problem(&self) -> Option<String> {
+    fn problem(&self) -> Option<Words> {
         let is_near = self.at.is_finite() && self.at.abs().max_element() <= FARTHEST;
         if !is_near {
-            return Some(format!("a graphic is not within {FARTHEST} m of its piece's origin"));
+            return Some(words!("a graphic is not within {most} m of its piece's origin", most = FARTHEST));
         }
-        width_problem("a graphic", self.width_m).or_else(|| angle_problem(self.angle))
+        width_problem(words!("a graphic"), self.width_m).or_else(|| angle_problem(self.angle))
     }
 }
 
@@ -156,8 +157,8 @@ impl Repeated {
     }
 
     /// What cannot be drawn, in words.
-    pub fn problem(&self) -> Option<String> {
-        width_problem("a repeat of an image", self.width_m).or_else(|| angle_problem(self.angle))
+    pub fn problem(&self) -> Option<Words> {
+        width_problem(words!("a repeat of an image"), self.width_m).or_else(|| angle_problem(self.angle))
     }
 }
 
@@ -167,13 +168,14 @@ fn placed(middle: DVec2, size: DVec2, angle: f64) -> DAffine2 {
     DAffine2::from_translation(DVec2::splat(0.5)) * DAffine2::from_scale(size.recip()) * to_middle
 }
 
-fn width_problem(what: &str, width: f64) -> Option<String> {
+fn width_problem(what: Words, width: f64) -> Option<Words> {
     let [least, most] = WIDTHS;
-    (!(least..=most).contains(&width)).then(|| format!("{what} is {width} m wide, not {least} to {most} m"))
+    (!(least..=most).contains(&width))
+        .then(|| words!("{what} is {width} m wide, not {least} to {most} m", what, width, least, most))
 }
 
-fn angle_problem(angle: f64) -> Option<String> {
-    (!angle.is_finite() || angle.abs() > 1e3).then(|| format!("{angle} is no angle of an image"))
+fn angle_problem(angle: f64) -> Option<Words> {
+    (!angle.is_finite() || angle.abs() > 1e3).then(|| words!("{angle} is no angle of an image", angle))
 }
 
 /// Images of a document and the graphics made of them.
@@ -206,39 +208,49 @@ impl Artwork {
     }
 
     /// What no command would accept, in words. Images that cannot be read are none of it: they are kept.
-    pub fn problem(&self, is_piece: impl Fn(PieceId) -> bool) -> Option<String> {
+    pub fn problem(&self, is_piece: impl Fn(PieceId) -> bool) -> Option<Words> {
         let Self { images, graphics, last } = self;
         let ids = images.keys().map(|id| id.0).chain(graphics.keys().map(|id| id.0));
         if ids.max().is_some_and(|id| id > *last) {
-            return Some("the counter of images is behind their ids".to_owned());
+            return Some(words!("the counter of images is behind their ids"));
         }
         if *last > LARGEST_ID {
-            return Some(format!("the counter of images is {last}, more than {LARGEST_ID}"));
+            return Some(words!(
+                "the counter of images is {last}, more than {most}",
+                last,
+                most = LARGEST_ID
+            ));
         }
         if images.len() > MOST_IMAGES {
-            return Some(format!("there are {} images, more than {MOST_IMAGES}", images.len()));
+            return Some(words!(
+                "there are {count} images, more than {most}",
+                count = images.len(),
+                most = MOST_IMAGES
+            ));
         }
         let bytes: usize = images.values().map(|file| file.bytes.len()).sum();
         if bytes > MOST_BYTES {
             let most = MOST_BYTES >> 20;
-            return Some(format!("the images have {} MiB together, more than {most} MiB", bytes >> 20));
+            return Some(words!(
+                "the images have {bytes} MiB together, more than {most} MiB",
+                bytes = bytes >> 20,
+                most
+            ));
         }
         if images.values().any(|file| file.name.chars().count() > LONGEST_NAME) {
-            return Some(format!("the name of an image has more than {LONGEST_NAME} characters"));
+            return Some(words!("the name of an image has more than {most} characters", most = LONGEST_NAME));
         }
         let mut on_piece: BTreeMap<PieceId, usize> = BTreeMap::new();
         for graphic in graphics.values() {
             let count = on_piece.entry(graphic.piece).or_default();
             *count += 1;
             let problem = match () {
-                () if !is_piece(graphic.piece) => {
-                    Some("a graphic is on a piece that is not there".to_owned())
-                }
+                () if !is_piece(graphic.piece) => Some(words!("a graphic is on a piece that is not there")),
                 () if !images.contains_key(&graphic.image) => {
-                    Some("the image of a graphic is not there".to_owned())
+                    Some(words!("the image of a graphic is not there"))
                 }
                 () if *count > MOST_ON_A_PIECE => {
-                    Some(format!("a piece has more than {MOST_ON_A_PIECE} graphics"))
+                    Some(words!("a piece has more than {most} graphics", most = MOST_ON_A_PIECE))
                 }
                 () => graphic.problem(),
             };

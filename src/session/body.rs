@@ -8,6 +8,7 @@ use crate::body::readings::{Reading, readings};
 use crate::body::{Landmarks, Surface, bones, landmarks};
 use crate::contact::Bone;
 use crate::geometry::mesh::TriMesh;
+use crate::geometry::words::words;
 use crate::repose::PosePath;
 use crate::session::body_choice::BodyChoice;
 use crate::session::command::Rejection;
@@ -34,7 +35,7 @@ impl Body {
     pub fn new(choice: &BodyChoice) -> Result<Self, Rejection> {
         let (surface, bones, own) = match choice {
             BodyChoice::Mannequin(measurements) => {
-                let figure = mannequin(measurements).map_err(|e| Rejection(e.to_string()))?;
+                let figure = mannequin(measurements).map_err(|e| Rejection(e.words()))?;
                 let surface = ready(figure.mesh.clone(), "the mannequin")?;
                 let bones = Arc::new(figure.skeleton.six_segments());
                 (surface, OnceLock::from(bones), Some(figure.landmarks.clone()))
@@ -43,9 +44,9 @@ impl Body {
                 (ready(mesh.as_ref().clone(), name)?, OnceLock::new(), None)
             }
             BodyChoice::Posed { measurements, pose } => {
-                let rig = rig(measurements).map_err(|e| Rejection(e.to_string()))?;
+                let rig = rig(measurements).map_err(|e| Rejection(e.words()))?;
                 let posed = rig.posed(pose);
-                let posed = posed.ok_or_else(|| Rejection::new("the mannequin cannot take this pose"))?;
+                let posed = posed.ok_or_else(|| Rejection(words!("the mannequin cannot take this pose")))?;
                 let bones = Arc::new(posed.skeleton.six_segments());
                 (posed.surface, OnceLock::from(bones), Some(posed.landmarks))
             }
@@ -111,13 +112,15 @@ impl BodyCache {
         }
         if self.way.as_ref().is_none_or(|(of, _)| !Arc::ptr_eq(of, aim)) {
             let (from, to) = (self.surface(&aim.from)?, self.surface(&aim.to)?);
-            let words = format!("there is no way from {} to {}", aim.from.name(), aim.to.name());
+            let words =
+                words!("there is no way from {one} to {other}", one = aim.from.name(), other = aim.to.name());
             let way = PosePath::new(&from, &to).ok_or(Rejection(words))?;
             self.way = Some((Arc::clone(aim), way));
         }
         let way = self.way.as_ref().map(|(_, way)| way);
         let positions = way.and_then(|way| way.positions(share));
-        let positions = positions.ok_or_else(|| Rejection::new("the body cannot take a pose on this way"))?;
+        let positions =
+            positions.ok_or_else(|| Rejection(words!("the body cannot take a pose on this way")))?;
         let triangles = self.surface(&aim.from)?.mesh.triangles.clone();
         let mesh = Arc::new(TriMesh { positions, triangles });
         Ok(BodyChoice::Imported { name: aim.to.name().to_owned(), mesh })
@@ -125,7 +128,9 @@ impl BodyCache {
 
     /// Positions of the mannequin `to` in the triangles of the mannequin `from`, as a surface. The error says why there is none.
     pub fn in_triangles_of(&mut self, from: &BodyChoice, to: &BodyChoice) -> Result<Arc<Surface>, Rejection> {
-        let words = || Rejection(format!("{} is not {} in another size", to.name(), from.name()));
+        let words = || {
+            Rejection(words!("{name} is not {other} in another size", name = to.name(), other = from.name()))
+        };
         let figure = |choice: &BodyChoice| mannequin(&choice.measurements()?).ok();
         let same = figure(from).zip(figure(to)).and_then(|(one, other)| Counterpart::new(&one, &other));
         let positions = same.ok_or_else(words)?.positions(&self.surface(to)?.mesh);
@@ -164,5 +169,5 @@ pub fn readings_of(choice: &BodyChoice, mesh: &TriMesh) -> Option<Vec<Reading>> 
 
 fn ready(mesh: TriMesh, name: &str) -> Result<Arc<Surface>, Rejection> {
     let surface = Surface::new(mesh).map(Arc::new);
-    surface.ok_or_else(|| Rejection(format!("{name} has no triangle that cloth could lie on")))
+    surface.ok_or_else(|| Rejection(words!("{name} has no triangle that cloth could lie on", name)))
 }

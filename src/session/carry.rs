@@ -10,6 +10,7 @@ use glam::DVec3;
 
 use crate::body::warp::Warp;
 use crate::geometry::ids::MarkId;
+use crate::geometry::words::{Words, words};
 use crate::pattern::{Problem, ProblemKind};
 use crate::session::body::Body;
 use crate::wrap::{Marks, Tie};
@@ -64,12 +65,12 @@ fn tied(p: DVec3, body: &Body) -> Tie {
 pub fn carried(marks: &Marks, from: Option<&Body>, to: &Body, name: &str) -> (Marks, Vec<Problem>) {
     let mut new = Marks { body: Vec::new(), ..marks.clone() };
     let mut lost = Vec::new();
-    let way = from.map_or(Err("the old body cannot be read"), |from| Way::new(from, to));
+    let way = from.map_or(Err(words!("the old body cannot be read")), |from| Way::new(from, to));
     for (i, mark) in marks.body.iter().enumerate() {
         let known = marks.ties.get(&mark.id).filter(|ties| ties.len() == mark.points.len());
-        let points = way.as_ref().map_err(|why| *why).and_then(|way| {
+        let points = way.as_ref().map_err(Clone::clone).and_then(|way| {
             let ties = (0..mark.points.len()).map(|k| known.map(|ties| &ties[k]));
-            way.stroke(&mark.points, ties).ok_or("there is no such place on its skin")
+            way.stroke(&mark.points, ties).ok_or_else(|| words!("there is no such place on its skin"))
         });
         match points {
             Ok(points) => new.body.push(crate::wrap::BodyMark { points, ..mark.clone() }),
@@ -90,13 +91,15 @@ pub fn carried(marks: &Marks, from: Option<&Body>, to: &Body, name: &str) -> (Ma
     (Arc::unwrap_or_clone(new), lost.into_iter().map(|(_, problem)| problem).collect())
 }
 
-fn problem(marks: &Marks, i: usize, body: &str, why: &str) -> Problem {
+fn problem(marks: &Marks, i: usize, body: &str, why: Words) -> Problem {
     let given = marks.name(marks.body[i].id);
-    let given = if given.is_empty() { String::new() } else { format!(" ({given})") };
+    let number = words!("mark {n}", n = i + 1);
+    let place =
+        if given.is_empty() { number } else { words!("{mark} ({name})", mark = number, name = given) };
     Problem {
         kind: ProblemKind::Mark,
-        place: format!("mark {}{given}", i + 1),
-        words: format!("it could not be carried to {body}: {why}; paint it again"),
+        place,
+        words: words!("it could not be carried to {body}: {why}; paint it again", body, why),
     }
 }
 
@@ -109,14 +112,14 @@ enum Way<'a> {
 }
 
 impl<'a> Way<'a> {
-    fn new(from: &'a Body, to: &'a Body) -> Result<Self, &'static str> {
+    fn new(from: &'a Body, to: &'a Body) -> Result<Self, Words> {
         if from.surface.mesh.triangles == to.surface.mesh.triangles {
             return Ok(Self::Triangles { from, to });
         }
-        let none = "the two bodies have too few landmarks in common";
-        let (there, here) = from.common_landmarks(to).ok_or(none)?;
+        let none = || words!("the two bodies have too few landmarks in common");
+        let (there, here) = from.common_landmarks(to).ok_or_else(none)?;
         let pairs: Vec<_> = there.iter().filter_map(|(name, p)| Some((p, here.get(name)?))).collect();
-        Ok(Self::Landmarks { from, to, warp: Warp::new(&pairs).ok_or(none)? })
+        Ok(Self::Landmarks { from, to, warp: Warp::new(&pairs).ok_or_else(none)? })
     }
 
     /// Transfers a stroke. None when too few points find a place.

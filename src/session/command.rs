@@ -8,6 +8,7 @@ use serde::{Deserialize, Serialize};
 use crate::body::mannequin::Measurements;
 use crate::drag::{DragMode, Ray};
 use crate::geometry::ids::{GraphicId, ImageId, MarkId, PieceId, PinId, SeamId};
+use crate::geometry::words::Words;
 use crate::pattern::edit::PatternEdit;
 use crate::pattern::{Edge, Pattern, Piece, PlanePose, Seam};
 use crate::session::animations::{Animations, Moment};
@@ -180,11 +181,4 @@ pub enum Command {
 /// Why a command was not carried out, in words for a person. The session is unchanged.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("{0}")]
-pub struct Rejection(pub String);
-
-impl Rejection {
-    /// A rejection with these words.
-    pub fn new(words: impl Into<String>) -> Self {
-        Self(words.into())
-    }
-}
+pub struct Rejection(pub Words);

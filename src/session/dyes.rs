@@ -5,6 +5,7 @@ use std::collections::BTreeMap;
 use serde::{Deserialize, Serialize};
 
 use crate::geometry::ids::{ImageId, PieceId};
+use crate::geometry::words::{Words, within_quotes, words};
 use crate::session::artwork::Repeated;
 use crate::session::fabrics::Fabrics;
 
@@ -144,12 +145,13 @@ impl Dyes {
     }
 
     /// The first print or image that cannot be drawn, in words.
-    pub fn problem(&self) -> Option<String> {
+    pub fn problem(&self) -> Option<Words> {
         let prints = self.each().filter_map(|dye| dye.print);
         let [least, most] = REPEATS;
         let wrong = prints.map(|print| print.repeat_m).find(|repeat| !(least..=most).contains(repeat));
-        let wrong =
-            wrong.map(|repeat| format!("a print repeats every {repeat} m, not every {least} to {most} m"));
+        let wrong = wrong.map(|repeat| {
+            words!("a print repeats every {repeat} m, not every {least} to {most} m", repeat, least, most)
+        });
         wrong.or_else(|| self.each().find_map(|dye| dye.image?.problem()))
     }
 }
@@ -169,17 +171,19 @@ pub struct Colourway {
 }
 
 /// The first thing wrong with a document's colourways, in words; their fabrics are checked elsewhere.
-pub fn colourways_problem(colourways: &[Colourway]) -> Option<String> {
+pub fn colourways_problem(colourways: &[Colourway]) -> Option<Words> {
     if colourways.len() > MOST_COLOURWAYS {
-        return Some(format!("there are more than {MOST_COLOURWAYS} colourways"));
+        return Some(words!("there are more than {most} colourways", most = MOST_COLOURWAYS));
     }
     colourways.iter().enumerate().find_map(|(i, colourway)| {
         if colourway.name.trim().is_empty() || colourway.name.chars().count() > LONGEST_NAME {
-            return Some(format!("the name of a colourway has 1 to {LONGEST_NAME} characters"));
+            return Some(words!("the name of a colourway has 1 to {most} characters", most = LONGEST_NAME));
         }
         let is_twice = colourways[..i].iter().any(|other| other.name == colourway.name);
         is_twice
-            .then(|| format!("there are two colourways named {:?}", colourway.name))
+            .then(|| {
+                words!("there are two colourways named \"{name}\"", name = within_quotes(&colourway.name))
+            })
             .or(colourway.dyes.problem())
     })
 }

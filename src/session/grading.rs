@@ -2,6 +2,7 @@
 
 use std::sync::Arc;
 
+use crate::geometry::words::Words;
 use crate::pattern::Problem;
 use crate::pattern::grading::{Graded, graded};
 use crate::session::document::Document;
@@ -11,7 +12,7 @@ use crate::session::document::Document;
 ///
 /// # Errors
 /// The pattern has no such size, in words; the document is as it was.
-pub fn grade(document: &mut Document, size: &str) -> Result<Vec<Problem>, String> {
+pub fn grade(document: &mut Document, size: &str) -> Result<Vec<Problem>, Words> {
     graded(&document.pattern, size).map(|graded| take(document, graded))
 }
 

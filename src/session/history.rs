@@ -1,5 +1,6 @@
 //! Undo and redo history. Cloning a document clones pointers.
 
+use crate::geometry::words::Words;
 use crate::session::document::Document;
 
 /// Most steps that can be undone.
@@ -29,7 +30,7 @@ pub struct Version {
 #[derive(Clone, Debug)]
 pub struct Step {
     /// Label for menus: "Undo LABEL".
-    pub label: String,
+    pub label: Words,
     /// Kind of the step.
     pub kind: StepKind,
     /// The document to return to.

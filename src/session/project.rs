@@ -6,6 +6,7 @@ use glam::DVec3;
 use serde::{Deserialize, Serialize};
 
 use crate::cloth::ClothState;
+use crate::geometry::words::{Words, words};
 use crate::pattern::Pattern;
 use crate::relax::RelaxSettings;
 use crate::session::document::{Document, Settings, is_false};
@@ -70,23 +71,23 @@ impl From<DressedData> for Dressed {
 
 impl Project {
     /// The first thing in it that no command would accept, in words; for files from outside.
-    pub fn problem(&self) -> Option<String> {
+    pub fn problem(&self) -> Option<Words> {
         crate::session::edit::document_problem(&self.document).or_else(|| self.dressed.as_ref()?.problem())
     }
 }
 
 impl Dressed {
-    fn problem(&self) -> Option<String> {
+    fn problem(&self) -> Option<Words> {
         let ClothState { positions, mapped } = &*self.cloth;
         if positions.len() != mapped.len() {
-            return Some("the dressed cloth has places and flags of different number".to_owned());
+            return Some(words!("the dressed cloth has places and flags of different number"));
         }
         if !positions.iter().all(|&p| crate::session::edit::is_place(p)) {
-            return Some("a vertex of the dressed cloth is not a finite point near the origin".to_owned());
+            return Some(words!("a vertex of the dressed cloth is not a finite point near the origin"));
         }
         let GarmentSource { pattern, marks, edge_length, relax } = &*self.source;
         let settings = Settings { edge_length: *edge_length, relax: *relax, ..Settings::default() };
         let problem = crate::session::edit::source_problem(pattern, marks, &settings);
-        problem.map(|words| format!("what the dressed cloth was cut from: {words}"))
+        problem.map(|words| words!("what the dressed cloth was cut from: {words}", words))
     }
 }

@@ -6,6 +6,7 @@ use crate::body::Surface;
 use crate::card::CardSlot;
 use crate::cloth::Fabric;
 use crate::contact::Bone;
+use crate::geometry::words::{Words, within_quotes, words};
 use crate::pattern::edit::Carried;
 use crate::pattern::{Pattern, Problem};
 use crate::place::Moved;
@@ -32,7 +33,7 @@ pub enum Notice {
     /// The cloth has come to rest.
     AtRest { tick: u64 },
     /// A request to the simulation failed; the cloth is as before, and paused.
-    Failed { tick: u64, words: String },
+    Failed { tick: u64, words: Words },
     /// Old steps were dropped to save memory and can no longer be undone.
     HistoryShortened,
 }
@@ -81,7 +82,7 @@ struct Plan {
 
 enum HistoryChange {
     None,
-    Push { label: String, kind: StepKind },
+    Push { label: Words, kind: StepKind },
     Undo,
     Redo,
     DropOpen,
@@ -213,14 +214,19 @@ impl Session {
         self.history.last_undone().map(|step| step.label.as_str())
     }
 
+    /// Labels of the steps that undo and redo would go to, in words for any language.
+    pub fn next_labels(&self) -> [Option<&Words>; 2] {
+        [self.history.last_done(), self.history.last_undone()].map(|step| step.map(|step| &step.label))
+    }
+
     /// Labels of the done steps, oldest first.
-    pub fn step_labels(&self) -> impl Iterator<Item = &str> {
-        self.history.done().iter().map(|step| step.label.as_str())
+    pub fn step_labels(&self) -> impl Iterator<Item = &Words> {
+        self.history.done().iter().map(|step| &step.label)
     }
 
     /// Labels of the undone steps, the next one to be redone first.
-    pub fn undone_labels(&self) -> impl Iterator<Item = &str> {
-        self.history.undone().iter().rev().map(|step| step.label.as_str())
+    pub fn undone_labels(&self) -> impl Iterator<Item = &Words> {
+        self.history.undone().iter().rev().map(|step| &step.label)
     }
 
     /// Whether the newest step that changed the cloth is a wrap, which `CancelWrap` can undo.
@@ -424,19 +430,19 @@ impl Session {
     }
 
     fn plan_undo(&self) -> Result<Plan, Rejection> {
-        let step = self.history.last_done().ok_or_else(|| Rejection::new("there is nothing to undo"))?;
+        let step = self.history.last_done().ok_or_else(|| Rejection(words!("there is nothing to undo")))?;
         Ok(Plan::back_to(step, HistoryChange::Undo))
     }
 
     fn plan_redo(&self) -> Result<Plan, Rejection> {
-        let step = self.history.last_undone().ok_or_else(|| Rejection::new("there is nothing to redo"))?;
+        let step = self.history.last_undone().ok_or_else(|| Rejection(words!("there is nothing to redo")))?;
         Ok(Plan::back_to(step, HistoryChange::Redo))
     }
 
     fn plan_cancel_gesture(&self, gesture: GestureId) -> Result<Plan, Rejection> {
         match self.history.last_done() {
             Some(step) if self.history.is_open(gesture.0) => Ok(Plan::back_to(step, HistoryChange::DropOpen)),
-            _ => Err(Rejection::new("this gesture has changed nothing")),
+            _ => Err(Rejection(words!("this gesture has changed nothing"))),
         }
     }
 
@@ -444,13 +450,13 @@ impl Session {
     fn plan_cancel_wrap(&self) -> Result<Plan, Rejection> {
         let newest = self.history.done().iter().rev().find(|step| step.kind != StepKind::Edit);
         let Some(step) = newest.filter(|step| step.kind == StepKind::Wrap) else {
-            return Err(Rejection::new("there is no wrap to cancel"));
+            return Err(Rejection(words!("there is no wrap to cancel")));
         };
         let is_last = self.history.last_done().is_some_and(|last| last.restore == step.restore);
         let history = if is_last {
             HistoryChange::DropLast
         } else {
-            HistoryChange::Push { label: "cancel wrap".to_owned(), kind: StepKind::Cloth }
+            HistoryChange::Push { label: words!("cancel wrap"), kind: StepKind::Cloth }
         };
         let mut plan = Plan::back_to(step, history);
         if !is_last {
@@ -558,7 +564,9 @@ impl Session {
 /// Fabrics of the document, for draping.
 fn drape_source(document: &Document) -> Result<Arc<DrapeSource>, Rejection> {
     let fabric = |name: &str| {
-        Fabric::preset(name).cloned().ok_or_else(|| Rejection(format!("there is no fabric {name:?}")))
+        Fabric::preset(name)
+            .cloned()
+            .ok_or_else(|| Rejection(words!("there is no fabric \"{name}\"", name = within_quotes(name))))
     };
     let fabrics = &document.fabrics;
     let of_pieces = fabrics.pieces.iter().map(|(&piece, name)| Ok((piece, fabric(name)?)));

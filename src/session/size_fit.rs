@@ -5,6 +5,7 @@ use std::fmt::Write;
 use serde::Serialize;
 
 use crate::fit::girths;
+use crate::geometry::words::Words;
 use crate::io::words::quoted;
 use crate::pattern::grading::{Graded, growth_in};
 use crate::pattern::{Pattern, Problem};
@@ -46,9 +47,9 @@ pub struct SizeFit {
     #[serde(skip_serializing_if = "Option::is_none")]
     pub folder: Option<String>,
     /// Why it is not dressed; None when it is, without a fault.
-    pub why: Option<String>,
+    pub why: Option<Words>,
     /// What cannot be cut in this size.
-    pub problems: Vec<String>,
+    pub problems: Vec<Words>,
     /// Seams whose first side outgrows the second since the base size, each by how many metres.
     pub seams_apart: Vec<(String, f64)>,
     triangles: Option<usize>,
@@ -61,17 +62,16 @@ pub struct SizeFit {
 impl SizeFit {
     /// `pattern` cut in `size`, which is not dressed yet.
     pub fn cut(pattern: &Pattern, size: &str, graded: &Graded) -> Self {
-        let told = |problem: &Problem| format!("{}: {}", problem.place, problem.words);
         let apart = growth_in(pattern, graded, size).into_iter();
         Self {
-            problems: graded.problems.iter().map(told).collect(),
+            problems: graded.problems.iter().map(Problem::in_words).collect(),
             seams_apart: apart.map(|growth| (growth.seam.to_string(), growth.change)).collect(),
             ..Self::named(size)
         }
     }
 
     /// A size that cannot be cut or dressed, and why.
-    pub fn refused(size: &str, why: String) -> Self {
+    pub fn refused(size: &str, why: Words) -> Self {
         Self { why: Some(why), ..Self::named(size) }
     }
 
@@ -89,7 +89,7 @@ impl SizeFit {
     }
 
     /// Takes the figures of its verdict, and why it is not dressed.
-    pub fn take(&mut self, triangles: usize, strain_p99: f64, why: Option<String>) {
+    pub fn take(&mut self, triangles: usize, strain_p99: f64, why: Option<Words>) {
         (self.triangles, self.strain_p99, self.why) = (Some(triangles), Some(strain_p99), why);
     }
 
@@ -211,7 +211,7 @@ mod tests {
         let m = || size("M", &[("bust", 0.04), ("hip", 0.01)]);
         let l = || size("L", &[("bust", 0.08), ("hip", 0.05)]);
         assert_eq!(of(&[s(), m(), l()]), "M");
-        let faulty = SizeFit { why: Some("torn".to_owned()), ..m() };
+        let faulty = SizeFit { why: Some(Words::plain("torn")), ..m() };
         assert_eq!(of(&[s(), faulty, l()]), "L");
         assert_eq!(of(&[size("XS", &[("hip", -0.05)]), s()]), "S", "none is wide: the least tight");
         assert_eq!(of(&[size("S", &[])]), "", "nothing was measured");
@@ -221,7 +221,7 @@ mod tests {
     fn the_table_has_a_row_for_each_size() {
         let mut first = size("S", &[("bust", 0.025)]);
         first.take(7, 0.0312, None);
-        let second = SizeFit { why: Some("torn".to_owned()), ..size("M", &[]) };
+        let second = SizeFit { why: Some(Words::plain("torn")), ..size("M", &[]) };
         let sizes = [first, second];
         assert_eq!(
             csv(&sizes),

@@ -4,6 +4,7 @@ use serde::Serialize;
 
 use crate::cloth::{ClothState, EdgeMetric, FlatPiece, Garment};
 use crate::fit::{self, BodyIndex, Fallen, Report};
+use crate::geometry::words::{Value, Words, decimal, words};
 use crate::pattern::{Problem, ProblemKind};
 use crate::sim::source::GarmentSource;
 use crate::wrap::{Marks, PairStretch, stretches};
@@ -73,10 +74,14 @@ pub fn faults(
 }
 
 fn told_fallen(fallen: Fallen, garment: &Garment) -> (Problem, fit::Spot) {
-    let place =
-        garment.pieces.get(fallen.piece).map_or_else(String::new, |(_, name)| format!("piece {name}"));
-    let words =
-        format!("it has slid down by {:.0} cm from where it was placed: nothing holds it", fallen.by * 100.0);
+    let place = garment
+        .pieces
+        .get(fallen.piece)
+        .map_or_else(Words::default, |(_, name)| words!("piece {name}", name));
+    let words = words!(
+        "it has slid down by {cm} cm from where it was placed: nothing holds it",
+        cm = decimal(fallen.by * 100.0, 0)
+    );
     (Problem { kind: ProblemKind::Dressing, place, words }, fit::Spot::Piece(fallen.piece))
 }
 
@@ -84,10 +89,16 @@ fn told(problem: Problem, marks: &[Concerned]) -> Problem {
     if marks.is_empty() {
         return problem;
     }
-    let each: Vec<String> =
-        marks.iter().map(|m| format!("{} ({:+.1} %)", m.number, m.stretch * 100.0)).collect();
-    let which = if each.len() == 1 { "mark" } else { "marks" };
-    Problem { words: format!("{}; nearest {which}: {}", problem.words, each.join(", ")), ..problem }
+    let each = marks.iter().map(|mark| {
+        let percent = Value::Number(format!("{:+.1}", mark.stretch * 100.0));
+        words!("{n} ({percent} %)", n = mark.number, percent)
+    });
+    let all = Words::joined(each, ", ");
+    let nearest = match marks.len() {
+        1 => words!("nearest mark: {marks}", marks = all),
+        _ => words!("nearest marks: {marks}", marks = all),
+    };
+    Problem { words: problem.words.and("; ", nearest), ..problem }
 }
 
 /// Number of the pair nearest to each vertex, by distance along the cloth and across seams; None where no path leads to a pair.

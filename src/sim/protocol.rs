@@ -12,6 +12,7 @@ use crate::contact::Bone;
 use crate::drag::{DragMode, Ray};
 use crate::fit::TightPlace;
 use crate::geometry::ids::PieceId;
+use crate::geometry::words::Words;
 use crate::pattern::activity::Activity;
 use crate::pattern::edit::Carried;
 use crate::pattern::{Pattern, Problem};
@@ -203,7 +204,7 @@ pub enum Event {
     Hash { tick: u64, seq: u64, cloth: Option<u64>, asked: Option<u64> },
     /// A tick or a request failed (not a number, or a panic). The state is that of before the request, or of the last checkpoint,
     /// and relaxing is paused.
-    Failed { tick: u64, seq: u64, words: String },
+    Failed { tick: u64, seq: u64, words: Words },
     /// To save memory, the states before requests numbered below `before_seq` were dropped.
     Forgotten { before_seq: u64 },
 }

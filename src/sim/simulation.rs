@@ -6,6 +6,7 @@ use std::sync::Arc;
 use crate::card::CardSlot;
 use crate::cloth::Skips;
 use crate::fit::TightPlace;
+use crate::geometry::words::{Words, words};
 use crate::sim::checkpoints::{Checkpoints, DEFAULT_CAPACITY};
 use crate::sim::fault::Fault;
 use crate::sim::protocol::{Event, Request, RequestKind, Snapshot};
@@ -221,7 +222,7 @@ impl Simulation {
         std::mem::take(&mut self.events)
     }
 
-    fn carry_out(&mut self, kind: RequestKind) -> Result<(), String> {
+    fn carry_out(&mut self, kind: RequestKind) -> Result<(), Words> {
         match kind {
             // A new change of pose starts from the cloth as it was before the one in progress.
             RequestKind::Repose { .. } | RequestKind::Resize { .. } => self.world.posing = None,
@@ -320,8 +321,11 @@ impl Simulation {
         self.world.part_active();
     }
 
-    fn restore(&mut self, before_seq: u64) -> Result<(), String> {
-        let world = self.checkpoints.before(before_seq).ok_or("the cloth of that time is no longer kept")?;
+    fn restore(&mut self, before_seq: u64) -> Result<(), Words> {
+        let world = self
+            .checkpoints
+            .before(before_seq)
+            .ok_or_else(|| words!("the cloth of that time is no longer kept"))?;
         self.world = world.clone();
         self.stats.restores += 1;
         Ok(())
@@ -343,7 +347,7 @@ impl Simulation {
         self.stats.vertices_moved += self.world.cloth.mapped.iter().filter(|&&m| m).count() as u64;
     }
 
-    fn fail(&mut self, words: String) {
+    fn fail(&mut self, words: Words) {
         self.world.relaxing = false;
         self.world.stop_draping();
         self.stats.failures += 1;
@@ -363,17 +367,17 @@ fn keeps_cloth(kind: &RequestKind) -> bool {
     matches!(kind, Rewrap { .. } | Resew { .. } | Repose { .. } | Resize { .. })
 }
 
-fn not_a_number(vertex: usize) -> String {
-    format!("vertex {vertex} of the cloth is no longer a finite point")
+fn not_a_number(vertex: usize) -> Words {
+    words!("vertex {n} of the cloth is no longer a finite point", n = vertex)
 }
 
-fn panic_words(panic: &(dyn std::any::Any + Send)) -> String {
+fn panic_words(panic: &(dyn std::any::Any + Send)) -> Words {
     let words = panic
         .downcast_ref::<String>()
         .map(String::as_str)
         .or_else(|| panic.downcast_ref::<&str>().copied())
         .unwrap_or("no words");
-    format!("a step of the simulation failed: {words}")
+    words!("a step of the simulation failed: {words}", words)
 }
 
 #[cfg(test)]

@@ -69,7 +69,7 @@ fn wrapped() -> Simulation {
     simulation
 }
 
-fn failures(simulation: &mut Simulation) -> Vec<String> {
+fn failures(simulation: &mut Simulation) -> Vec<Words> {
     let events = simulation.take_events().into_iter();
     events.filter_map(|e| if let Event::Failed { words, .. } = e { Some(words) } else { None }).collect()
 }

@@ -2,6 +2,8 @@
 
 use serde::{Deserialize, Serialize};
 
+use crate::geometry::words::Words;
+
 /// How a garment is put on the body.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
@@ -58,7 +60,7 @@ pub struct Tried {
     /// Whether it was judged after draping.
     pub draped: bool,
     /// Faults, in words.
-    pub faults: Vec<String>,
+    pub faults: Vec<Words>,
     /// Number of places with faults.
     pub places: usize,
     /// Ticks it took. The ticks of a wrap are not counted again in the result after draping.

@@ -11,7 +11,7 @@ use crate::pattern::edit::{LinePoint, PatternEdit, PointRef, TrimLine};
 use crate::pattern::grading::READY_SIZES;
 use crate::pattern::{
     AllowanceCorner, Button, Edge, EdgeRef, EdgeShape, Elastic, Fold, GradeRule, Hem, InternalLine, Pattern,
-    Piece, PiecePoint, Piping, PlanePose, RulePoint, Seam, Side, SpacePose, Topstitch, Zip,
+    Piece, PiecePoint, Piping, PlanePose, RulePoint, Seam, Side, SpacePose, Topstitch, Wrinkle, Zip,
 };
 use crate::session::{BodyChoice, Command, Dye, Graphic, ImageFile, Repeated, Session, Settings};
 use crate::sim::{Runner, Simulation};
@@ -192,6 +192,7 @@ fn trims([front, back]: [PieceId; 2], seam: SeamId, line: InternalLine) -> Vec<P
         PatternEdit::SetElastic { lines: lines.clone(), elastic: Some(Elastic { ratio: 0.7, tension: 9.0 }) },
         PatternEdit::SetTopstitch { lines: lines.clone(), topstitch: Some(Topstitch::default()) },
         PatternEdit::SetHem { lines: lines.clone(), hem: Some(Hem { width: 0.02, colour: Some([9; 3]) }) },
+        PatternEdit::SetWrinkle { lines: lines[..1].to_vec(), wrinkle: Some(Wrinkle::USUAL) },
         PatternEdit::SetPiping { lines, piping: Some(Piping::USUAL) },
         PatternEdit::AddButtons { buttons: vec![button] },
         PatternEdit::SetZip { seam, zip: Some(Zip { open: 0.4, from_end: true, colour }) },

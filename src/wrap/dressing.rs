@@ -8,6 +8,7 @@ use glam::DVec3;
 use crate::body::Surface;
 use crate::cloth::{Carry, ClothState, Counters, EdgeMetric, Garment, Skip};
 use crate::geometry::ids::PieceId;
+use crate::geometry::words::words;
 use crate::pattern::{Problem, ProblemKind};
 use crate::relax::{GlobalStep, RelaxSettings, Relaxer};
 use crate::wrap::Marks;
@@ -603,8 +604,8 @@ impl Dressing {
 }
 
 fn too_large() -> Problem {
-    let words = "the garment is too large for this machine's memory".to_owned();
-    Problem { kind: ProblemKind::Dressing, place: "garment".to_owned(), words }
+    let words = words!("the garment is too large for this machine's memory");
+    Problem { kind: ProblemKind::Dressing, place: words!("garment"), words }
 }
 
 fn report_unreached(garment: &Garment, order: &Order, problems: &mut Vec<Problem>) {
@@ -617,8 +618,8 @@ fn report_unreached(garment: &Garment, order: &Order, problems: &mut Vec<Problem
         if lost {
             problems.push(Problem {
                 kind: ProblemKind::Dressing,
-                place: format!("{name} ({piece})"),
-                words: "no seam joins this piece to a mark; it stays in the pattern".to_owned(),
+                place: words!("{name} ({piece})", name, piece),
+                words: words!("no seam joins this piece to a mark; it stays in the pattern"),
             });
         }
     }

@@ -8,6 +8,7 @@ use crate::body::Surface;
 use crate::cloth::{FlatPiece, Garment};
 use crate::geometry::ids::PieceId;
 use crate::geometry::walk::straightest;
+use crate::geometry::words::{Words, words};
 use crate::pattern::{Problem, ProblemKind};
 use crate::wrap::{BodyMark, ClothMark, ClothSide, Marks};
 
@@ -98,12 +99,12 @@ struct Strokes {
 
 impl Strokes {
     /// Err: a message that says why a stroke cannot be used.
-    fn new(cloth: &ClothMark, body: &BodyMark, surface: &Surface, offset: f64) -> Result<Self, String> {
+    fn new(cloth: &ClothMark, body: &BodyMark, surface: &Surface, offset: f64) -> Result<Self, Words> {
         if cloth.points.is_empty() || body.points.is_empty() {
-            return Err("it has no points".to_owned());
+            return Err(words!("it has no points"));
         }
         if cloth.points.iter().any(|p| !p.is_finite()) || body.points.iter().any(|p| !p.is_finite()) {
-            return Err("it has coordinates that are not numbers".to_owned());
+            return Err(words!("it has coordinates that are not numbers"));
         }
         let lifted = body.points.iter().map(|&p| lifted(surface, p, offset)).collect();
         let (cloth, body) =
@@ -153,19 +154,19 @@ pub fn roots(
                     sum.2 = sum.2.min(root.distance);
                 }
             }
-            Err(words) => {
-                problems.push(Problem { kind: ProblemKind::Mark, place: format!("mark {number}"), words })
-            }
+            Err(words) => problems.push(Problem {
+                kind: ProblemKind::Mark,
+                place: words!("mark {n}", n = number),
+                words,
+            }),
         }
     }
     for number in marks.cloth.len().min(marks.body.len()) + 1..=marks.cloth.len().max(marks.body.len()) {
-        let (has, lacks) =
-            if marks.cloth.len() > marks.body.len() { ("cloth", "body") } else { ("body", "cloth") };
-        problems.push(Problem {
-            kind: ProblemKind::Mark,
-            place: format!("mark {number}"),
-            words: format!("it is on the {has} but not on the {lacks}; paint its partner or delete it"),
-        });
+        let words = match marks.cloth.len() > marks.body.len() {
+            true => words!("it is on the cloth but not on the body; paint its partner or delete it"),
+            false => words!("it is on the body but not on the cloth; paint its partner or delete it"),
+        };
+        problems.push(Problem { kind: ProblemKind::Mark, place: words!("mark {n}", n = number), words });
     }
     let roots = found
         .into_iter()
@@ -202,20 +203,20 @@ impl<'a> Pair<'a> {
         cloth: &'a ClothMark,
         body: &BodyMark,
         offset: f64,
-    ) -> Result<Self, String> {
+    ) -> Result<Self, Words> {
         let strokes = Strokes::new(cloth, body, surface, offset)?;
         if !garment.pieces.iter().any(|&(id, _)| id == cloth.piece) {
-            return Err(format!("its {} is not in the garment", cloth.piece));
+            return Err(words!("its {piece} is not in the garment", piece = cloth.piece));
         }
         Ok(Self { garment, surface, cloth, strokes, offset })
     }
 
-    fn roots(&self) -> Result<Vec<Root>, String> {
+    fn roots(&self) -> Result<Vec<Root>, Words> {
         let crossing = if self.strokes.is_point { Vec::new() } else { self.crossing_roots() };
         if !crossing.is_empty() {
             return Ok(crossing);
         }
-        self.point_roots().ok_or_else(|| "it lies off its piece; paint it on the cloth".to_owned())
+        self.point_roots().ok_or_else(|| words!("it lies off its piece; paint it on the cloth"))
     }
 
     /// The frame at fraction `t` of the arc length of both strokes.

@@ -109,6 +109,24 @@ fn blender_gets_the_images_of_an_obj() {
     assert!(shared >= 5, "{shared} places are shared");
 }
 
+#[test]
+fn blender_gets_buttons_piping_and_stitches() {
+    let Some(python) = python() else { return };
+    let place = crate::trims::trimmed();
+    place.ends(0, "export dressed.toile -o cloth.glb --textures 16");
+    let script = format!(
+        "import bpy\nbpy.ops.wm.read_factory_settings(use_empty=True)\nbpy.ops.import_scene.gltf(filepath='cloth.glb')\n{LOOK}"
+    );
+    let seen = told(&python, &place, &script);
+    let cloth = places(&seen["left"]).len();
+    for name in crate::trims::NAMES {
+        let trim = &seen[name];
+        assert!(trim["faces"].as_u64() > Some(20), "{name}: {seen}");
+        assert!(trim["materials"][name].is_object(), "{name}: {}", trim["materials"]);
+    }
+    assert!(cloth > 10 && places(&seen["Piping"]).len() > cloth);
+}
+
 /// The skirt of the walk that ends with an export, in "skirt.glb"; None where the recording was made on another kind of machine,
 /// whose bits differ.
 fn walked() -> Option<Place> {

@@ -180,7 +180,8 @@ fn cloth_goes_along_with_an_animated_body() {
     place.save("marked.toile", &limb::project());
     let ended = place.run("dress marked.toile --out out --save dressed.toile");
     assert!([0, 1].contains(&ended.code), "{ended:#?}");
-    let ended = place.run("repose dressed.toile --motion limb.glb --unit m --fps 10 --out posed");
+    let ended =
+        place.run("repose dressed.toile --motion limb.glb --textures 16 --unit m --fps 10 --out posed");
     assert!([0, 1].contains(&ended.code), "{ended:#?}");
     let report = place.json("posed/report.json");
     let frames = report["frames"].as_array().expect("frames");
@@ -195,7 +196,7 @@ fn cloth_goes_along_with_an_animated_body() {
     assert!(ended.err.contains("2 animations: 1 bend, 2 snap: the first is taken"), "{ended:#?}");
     let other = |asked: &str| {
         format!(
-            "repose dressed.toile --motion limb.glb --animation {asked} --unit m --fps 10 --frames 5..6 --out {asked}"
+            "repose dressed.toile --motion limb.glb --animation {asked} --textures 16 --unit m --fps 10 --frames 5..6 --out {asked}"
         )
     };
     // The other one stands still until its end, by either name.

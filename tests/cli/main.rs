@@ -35,5 +35,6 @@ mod stopped;
 mod techpack;
 mod textures;
 mod thousand;
+mod trims;
 mod trust;
 mod usd;

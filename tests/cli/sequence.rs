@@ -32,7 +32,8 @@ fn gltf(place: &Place, name: &str) -> gltf_json::Root {
 #[test]
 fn cloth_goes_along_through_a_folder_of_frames() {
     let place = with_frames();
-    let ended = place.run("repose dressed.toile --sequence --body frames --unit m --fps 25 --out posed");
+    let ended = place
+        .run("repose dressed.toile --sequence --body frames --textures 16 --unit m --fps 25 --out posed");
     assert!([0, 1].contains(&ended.code), "{ended:#?}");
     let before = vertices(&place.read("out/garment.obj"));
     for i in 0..11 {
@@ -59,7 +60,7 @@ fn some_of_the_frames_are_made_and_threads_change_nothing() {
     let hash = |threads: usize| {
         let out = format!("posed{threads}");
         place.run(&format!(
-            "repose dressed.toile --sequence --body frames/ball*.obj --frames 2..9 --every 3 --unit m --out {out} --threads {threads}"
+            "repose dressed.toile --sequence --body frames/ball*.obj --frames 2..9 --every 3 --textures 16 --unit m --out {out} --threads {threads}"
         ));
         let names = place.names(&out);
         assert_eq!(
@@ -138,7 +139,7 @@ fn a_captured_motion_moves_the_mannequin() {
     place.write("bend.bvh", BEND);
     let report = place.run("dress sample:scarf --edge-length 0.05 --save scarf.toile --out scarf");
     assert!([0, 1].contains(&report.code), "{report:#?}");
-    let ended = place.run("repose scarf.toile --motion bend.bvh --out posed");
+    let ended = place.run("repose scarf.toile --motion bend.bvh --textures 16 --out posed");
     assert!([0, 1].contains(&ended.code), "{ended:#?}");
     assert!(ended.err.contains("that move nothing of the mannequin: Tail"), "{ended:#?}");
     assert!(ended.err.contains("that nothing moves: spine, chest"), "{ended:#?}");
@@ -204,8 +205,9 @@ fn a_motion_with_z_up_is_set_upright() {
     let dressed = place.run("dress sample:scarf --edge-length 0.05 --save scarf.toile --out scarf");
     assert!([0, 1].contains(&dressed.code), "{dressed:#?}");
     let last = |name: &str, up: &str| {
-        let ended =
-            place.run(&format!("repose scarf.toile --motion {name}.bvh {up} --frames 2..3 --out {name}"));
+        let ended = place.run(&format!(
+            "repose scarf.toile --motion {name}.bvh {up} --frames 2..3 --textures 16 --out {name}"
+        ));
         assert!([0, 1].contains(&ended.code), "{ended:#?}");
         let is_told = ended.err.contains("z is taken to point up, by its rest pose (see --up)");
         (place.read(&format!("{name}/garment_0000.obj")), is_told)

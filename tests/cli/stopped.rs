@@ -37,7 +37,7 @@ const DRESSING: &[(&str, bool)] = &[
 
 const REPOSING: &[(&str, bool)] = &[
     ("repose IN/dressed.toile --pose walking --pose sitting --out out", false),
-    ("repose IN/dressed.toile --sequence --body IN/frames --unit m --out out", true),
+    ("repose IN/dressed.toile --sequence --body IN/frames --textures 0 --unit m --out out", true),
     ("simulate IN/scene.json --out out", false),
 ];
 

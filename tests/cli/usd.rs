@@ -19,7 +19,7 @@ fn count(text: &str, start: &str) -> usize {
 }
 
 /// The files of a USDZ by their names. All are stored, at multiples of 64 bytes.
-fn unpacked(place: &Place, name: &str) -> BTreeMap<String, Vec<u8>> {
+pub fn unpacked(place: &Place, name: &str) -> BTreeMap<String, Vec<u8>> {
     let mut zip =
         ZipArchive::new(Cursor::new(std::fs::read(place.path(name)).expect("a file"))).expect("zip");
     let mut files = BTreeMap::new();
@@ -74,8 +74,9 @@ fn a_sequence_is_written_as_usd_where_that_is_asked() {
         let there = |p: DVec3| p + DVec3::Y * (0.05 * f64::from(i));
         place.write(&format!("frames/ball{i}.obj"), crate::repose::moved(&place.read("out/body.obj"), there));
     }
-    let ended =
-        place.run("repose dressed.toile --sequence --body frames --unit m --fps 25 --usd --out posed");
+    let ended = place.run(
+        "repose dressed.toile --sequence --body frames --textures 16 --unit m --fps 25 --usd --out posed",
+    );
     assert!([0, 1].contains(&ended.code), "{ended:#?}");
     let files = unpacked(&place, "posed/sequence.usdz");
     let text = String::from_utf8_lossy(&files["garment.usda"]);
@@ -83,7 +84,7 @@ fn a_sequence_is_written_as_usd_where_that_is_asked() {
         assert!(text.contains(words), "{words}");
     }
     assert_eq!(text.matches("points.timeSamples").count(), 3, "two pieces and the body");
-    place.run("repose dressed.toile --sequence --body frames --unit m --out posed");
+    place.run("repose dressed.toile --sequence --body frames --textures 16 --unit m --out posed");
     assert!(place.names("posed").contains(&"sequence.glb".to_owned()));
     assert!(!place.names("posed").contains(&"sequence.usdz".to_owned()), "that was of another motion");
     place.ends_with_words(

@@ -9,7 +9,7 @@ use toile::fit::{BodyIndex, measure};
 use toile::geometry::ids::{ButtonId, PieceId};
 use toile::pattern::edit::{PatternEdit, TrimLine};
 use toile::pattern::{
-    Button, Edge, EdgeRef, Elastic, Fold, Hem, InternalLine, PiecePoint, Piping, Topstitch, Zip,
+    Button, Edge, EdgeRef, Elastic, Fold, Hem, InternalLine, PiecePoint, Piping, Topstitch, Wrinkle, Zip,
 };
 use toile::session::project_file::{from_bytes, to_bytes};
 use toile::session::recording::Recording;
@@ -334,5 +334,55 @@ fn piping_is_stiff_undone_recorded_and_kept_and_dyed_at_rest() {
     run(&mut s, 20);
     let piping = s.document().pattern.pieces[&LEFT].edge(1).trims.piping;
     assert_eq!(piping, Some(Piping { radius: 0.003, colour: [200, 0, 0] }));
+    again(&mut s);
+}
+
+#[test]
+fn a_wrinkle_is_set_changed_undone_recorded_and_kept() {
+    let mut s = draped();
+    let edges = vec![Edge { start: DVec2::new(0.1, 0.0), ..Edge::default() }];
+    let line = InternalLine { edges, end: DVec2::new(0.1, 0.3), ..InternalLine::default() };
+    s.apply_alone(edit(PatternEdit::AddLine { piece: RIGHT, line })).expect("drawn");
+    let before = hash_of(&mut s);
+    let lines = vec![TrimLine::Line { piece: RIGHT, line: 0 }];
+    let wrinkle = |width: f64, height: f64| {
+        let wrinkle = Some(Wrinkle { width, height });
+        edit(PatternEdit::SetWrinkle { lines: lines.clone(), wrinkle })
+    };
+    for (bad, words) in [
+        (wrinkle(0.2, 0.01), "the width of a wrinkle (m) is 0.005 to 0.1, not 0.2"),
+        (
+            wrinkle(0.04, 0.03),
+            "the height of a wrinkle (m), at most half its width, is -0.02 to 0.02, not 0.03",
+        ),
+    ] {
+        assert!(s.apply_alone(bad).is_err_and(|why| why.0.contains(words)), "{words}");
+    }
+    let on_an_edge = vec![TrimLine::Edge(EdgeRef { piece: LEFT, edge: 1 })];
+    let set = PatternEdit::SetWrinkle { lines: on_an_edge, wrinkle: Some(Wrinkle::USUAL) };
+    assert!(s.apply_alone(edit(set)).is_err_and(|why| why.0.contains("not along an edge")));
+    assert_eq!(hash_of(&mut s), before);
+    let bent = |s: &Session| s.snapshot().garment.as_ref().map_or(0, |g| g.trims.wrinkles.len());
+    s.apply_alone(wrinkle(0.04, 0.008)).expect("set");
+    assert_eq!(s.undo_label(), Some("set a wrinkle"));
+    run(&mut s, 20);
+    let edges = bent(&s);
+    assert!(edges > 100, "{edges}");
+    let lying = s.snapshot().cloth.positions.clone();
+    s.apply_alone(wrinkle(0.04, -0.008)).expect("changed");
+    s.update();
+    assert_eq!((s.snapshot().cloth.positions.len(), bent(&s)), (lying.len(), edges), "the mesh stays");
+    run(&mut s, 20);
+    for _ in 0..2 {
+        s.apply_alone(Command::Undo).expect("undone");
+    }
+    s.update();
+    assert_eq!(hash_of(&mut s), before);
+    for _ in 0..2 {
+        s.apply_alone(Command::Redo).expect("done again");
+    }
+    run(&mut s, 20);
+    let kept = s.document().pattern.pieces[&RIGHT].lines[0].edges[0].trims.wrinkle;
+    assert_eq!((kept, bent(&s)), (Some(Wrinkle { width: 0.04, height: -0.008 }), edges));
     again(&mut s);
 }

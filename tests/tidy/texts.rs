@@ -202,6 +202,38 @@ fn every_text_of_the_window_is_in_german() {
     assert!(wrong.is_empty(), "{wrong:#?}");
 }
 
+/// The code of all rooms without their tests.
+fn code_of_rooms() -> Vec<Source> {
+    let mut sources = sources();
+    sources.retain(|s| !s.path.ends_with("tests.rs") && !s.path.ends_with("reasons.rs"));
+    for source in &mut sources {
+        let end = source.code.find("#[cfg(test)]\nmod tests {").unwrap_or(source.code.len());
+        source.code.truncate(end);
+    }
+    sources
+}
+
+/// Reasons, problems and steps come from rooms that know no language, as a text and its values.
+#[test]
+fn every_text_of_words_is_in_german() {
+    let german = german();
+    let (mut wrong, mut count) = (Vec::new(), 0);
+    for source in code_of_rooms() {
+        for literal in literals(&source.code).iter().filter(|l| l.before.trim_end().ends_with("words!(")) {
+            let text = &literal.text;
+            count += 1;
+            if german.get(text).is_none_or(String::is_empty) {
+                wrong.push(format!("{}: not in German: {text:?}", source.path));
+            }
+            if names(text) != given(literal.after) {
+                wrong.push(format!("{}: other values than those given: {text:?}", source.path));
+            }
+        }
+    }
+    assert!(wrong.is_empty(), "{wrong:#?}");
+    assert!(count > 300, "{count} texts");
+}
+
 /// Numbers are shown and typed with the decimal sign of the language, through the helpers of `language`.
 #[test]
 fn no_number_of_the_window_has_a_decimal_point_of_its_own() {

@@ -406,6 +406,40 @@ fn the_fit_report_is_written_where_it_is_asked_for() {
 }
 
 #[test]
+fn a_garment_as_obj_has_its_materials_beside_it_and_replaces_nothing_unasked() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let there = |name: &str| folder.path().join(name);
+    let (path, materials) = (there("cloth.obj"), there("cloth.mtl"));
+    std::fs::write(&materials, "of another").expect("a file");
+    let mut window = super::hand::dressed_window();
+    if !write_file(&mut window, "Export…", &path) {
+        return;
+    }
+    window.run_steps(3);
+    assert!(window.query_by_label_contains("would be replaced: cloth.mtl").is_some());
+    window.get_by_label("Cancel").click();
+    window.run_steps(3);
+    assert!(!path.exists(), "all of it or nothing");
+    assert_eq!(std::fs::read_to_string(&materials).expect("the file"), "of another");
+    assert!(write_file(&mut window, "Export…", &path));
+    window.run_steps(3);
+    window.get_by_label("Replace them").click();
+    window.run_steps(3);
+    let text = std::fs::read_to_string(&path).expect("the cloth");
+    assert!(text.contains("mtllib cloth.mtl\n") && text.contains("o Square\nusemtl "));
+    let text = std::fs::read_to_string(&materials).expect("the materials");
+    assert!(text.contains("map_Kd cloth-colour.png\n") && text.contains("norm cloth-normal.png\n"), "{text}");
+    for name in ["cloth-colour.png", "cloth-normal.png"] {
+        assert_eq!(image::image_dimensions(there(name)).expect("a picture"), (2048, 2048), "{name}");
+    }
+    assert!(window.query_by_label_contains("Written: ").is_some());
+    // Beside another name nothing is in the way.
+    assert!(write_file(&mut window, "Export…", &there("other.obj")));
+    window.run_steps(3);
+    assert!(there("other.mtl").exists() && window.query_by_label("Replace them").is_none());
+}
+
+#[test]
 fn the_tech_pack_is_made_behind_the_window() {
     let folder = tempfile::tempdir().expect("a folder");
     let path = folder.path().join("pack.pdf");

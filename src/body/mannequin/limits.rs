@@ -2,10 +2,10 @@
 
 use super::childhood;
 use super::measurements::Measurements;
+use crate::geometry::words::{Words, decimal, words};
 
 /// Error: a measurement that no body has.
-#[derive(Clone, Debug, PartialEq, thiserror::Error)]
-#[error("{name} is {centimetres:.1} cm; a mannequin can be built with {lowest:.1} to {highest:.1} cm{given}")]
+#[derive(Clone, Debug, PartialEq)]
 pub struct OutOfRange {
     /// Name of the measurement.
     pub name: &'static str,
@@ -18,6 +18,29 @@ pub struct OutOfRange {
     /// Where the limits come from: empty, or text such as " at this hip".
     pub given: &'static str,
 }
+
+impl OutOfRange {
+    /// The error in words.
+    pub fn words(&self) -> Words {
+        let [is, least, most] = [self.centimetres, self.lowest, self.highest].map(|cm| decimal(cm, 1));
+        words!(
+            "{name} is {is} cm; a mannequin can be built with {least} to {most} cm{given}",
+            name = Words::listed(self.name),
+            is,
+            least,
+            most,
+            given = Words::listed(self.given)
+        )
+    }
+}
+
+impl std::fmt::Display for OutOfRange {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.write_str(&self.words())
+    }
+}
+
+impl std::error::Error for OutOfRange {}
 
 impl Measurements {
     /// Checks that a figure can have these measurements: each against the default scaled to the height, below 1.40 m against

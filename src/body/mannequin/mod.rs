@@ -35,6 +35,7 @@ use super::landmarks::Landmarks;
 use super::measure::Tape;
 use super::skeleton::Skeleton;
 use crate::geometry::mesh::TriMesh;
+use crate::geometry::words::{Words, words};
 use field::Field;
 use figure::Figure;
 use polygonise::Grid;
@@ -60,14 +61,38 @@ pub struct Mannequin {
 }
 
 /// Error: there is no such mannequin.
-#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[derive(Clone, Debug, PartialEq)]
 pub enum MannequinError {
     /// A measurement that no body has.
-    #[error(transparent)]
-    OutOfRange(#[from] OutOfRange),
+    OutOfRange(OutOfRange),
     /// The figure could not reach all measurements at once.
-    #[error("no figure has these measurements together: change the girths towards each other")]
     Unreachable,
+}
+
+impl MannequinError {
+    /// The error in words.
+    pub fn words(&self) -> Words {
+        match self {
+            Self::OutOfRange(error) => error.words(),
+            Self::Unreachable => {
+                words!("no figure has these measurements together: change the girths towards each other")
+            }
+        }
+    }
+}
+
+impl std::fmt::Display for MannequinError {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.write_str(&self.words())
+    }
+}
+
+impl std::error::Error for MannequinError {}
+
+impl From<OutOfRange> for MannequinError {
+    fn from(error: OutOfRange) -> Self {
+        Self::OutOfRange(error)
+    }
 }
 
 /// The mannequin with measurements `m`. Cached: built once in a process for each set of measurements (the last eight are kept).

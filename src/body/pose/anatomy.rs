@@ -324,7 +324,7 @@ impl Anatomy {
             all[axis as usize] = degrees;
             self.set(&mut pose, limb, all);
         }
-        pose.problem().map_or(Ok(pose), Err)
+        pose.problem().map_or(Ok(pose), |why| Err(why.into()))
     }
 }
 

@@ -18,6 +18,7 @@ pub use named::NamedPose;
 pub use rig::{Posed, Rig, rig};
 
 use crate::body::skeleton::Skeleton;
+use crate::geometry::words::{Words, decimal, within_quotes, words};
 
 /// No joint turns further, radians.
 pub const FURTHEST: f64 = 2.9;
@@ -64,15 +65,19 @@ impl Pose {
     }
 
     /// What is wrong with it, in words.
-    pub fn problem(&self) -> Option<String> {
+    pub fn problem(&self) -> Option<Words> {
         let known = |name: &str| regions::JOINTS.iter().any(|(joint, _)| *joint == name);
         self.turns.iter().find_map(|(name, turn)| match known(name) {
-            false => Some(format!("the mannequin has no joint called {name:?} that turns")),
-            true if !turn.is_finite() => Some(format!("the turn of {name} is no number")),
-            true if turn.length() > FURTHEST => Some(format!(
-                "{name} is turned by {:.0}°, a joint turns {:.0}° at most",
-                turn.length().to_degrees(),
-                FURTHEST.to_degrees()
+            false => Some(words!(
+                "the mannequin has no joint called \"{name}\" that turns",
+                name = within_quotes(name)
+            )),
+            true if !turn.is_finite() => Some(words!("the turn of {name} is no number", name)),
+            true if turn.length() > FURTHEST => Some(words!(
+                "{name} is turned by {degrees}°, a joint turns {most}° at most",
+                name,
+                degrees = decimal(turn.length().to_degrees(), 0),
+                most = decimal(FURTHEST.to_degrees(), 0)
             )),
             true => None,
         })

@@ -13,6 +13,7 @@ use crate::body::pose::matching::matched;
 use crate::body::pose::regions::JOINTS;
 use crate::body::pose::{FURTHEST, Pose, shortest};
 use crate::body::skeleton::Skeleton;
+use crate::geometry::words::{Words, words};
 
 /// What one value of a frame does to its joint.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -172,14 +173,14 @@ pub struct Retarget {
 
 impl Retarget {
     /// Matches `clip` to the mannequin with this `skeleton`. Err: a message, when no joint is known by name.
-    pub fn new(clip: &Clip, skeleton: &Skeleton) -> Result<Self, String> {
+    pub fn new(clip: &Clip, skeleton: &Skeleton) -> Result<Self, Words> {
         let names: Vec<&str> = clip.joints.iter().map(|joint| joint.name.as_str()).collect();
         let mut found = matched(&names);
         upright(&mut found, clip);
         let sources: Vec<Option<usize>> = JOINTS.iter().map(|(name, _)| found.get(*name).copied()).collect();
         if sources.iter().all(Option::is_none) {
             let first: Vec<&str> = names.iter().copied().take(12).collect();
-            return Err(format!("none of its joints is known by name: {}", first.join(", ")));
+            return Err(words!("none of its joints is known by name: {names}", names = first.join(", ")));
         }
         let rest = clip.resting();
         let index = |name: &str| JOINTS.iter().position(|(joint, _)| *joint == name);

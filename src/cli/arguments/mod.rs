@@ -358,6 +358,8 @@ pub struct Repose {
     /// Also writes sequence.usdz, the same as USD, with --sequence or --motion
     #[arg(long, conflicts_with_all = ["poses", "joints", "joint_files", "settle", "save"])]
     pub usd: bool,
+    #[command(flatten)]
+    pub textures: TextureOptions,
     /// The folder to write to
     #[arg(long, value_name = "DIR")]
     pub out: PathBuf,

@@ -52,14 +52,14 @@ pub fn drape(scene: &Scene, runs: usize, slot: Option<&CardSlot>) -> Result<Row,
         let (garment, surface) = (Arc::clone(&wrapped.garment), Arc::clone(&scene.surface));
         let mut worn =
             DrapedGarment::new(garment, &cloth, surface, (&BTreeMap::new(), cotton), &[], settings)
-                .map_err(|why| Failure::Internal(why.0))?;
+                .map_err(|why| Failure::Internal(why.0.into()))?;
         if let Some(slot) = slot {
             worn = worn.with_card(slot);
         }
         while !worn.progress().at_rest {
             interrupt::check()?;
             let start = Instant::now();
-            worn.tick(&mut cloth).map_err(|why| Failure::Internal(why.0))?;
+            worn.tick(&mut cloth).map_err(|why| Failure::Internal(why.0.into()))?;
             each.push(start.elapsed().as_secs_f64());
         }
         all.push(start.elapsed().as_secs_f64());

@@ -18,14 +18,14 @@ use crate::cli::seconds::Seconds;
 use crate::cli::{files, formats, input, interrupt, output, repose, run};
 use crate::fit;
 use crate::io::dressed::{Dressed, Frame};
-use crate::io::materials::Colours;
 use crate::io::{glb, gltf, usd};
 use crate::repose::{ReposeSettings, Reposer};
 use crate::session::recording::Hex;
-use crate::session::{BodyChoice, Session};
+use crate::session::{BodyChoice, Document, Session};
 use crate::sim::Snapshot;
 use crate::sim::hash::{Fnv, cloth_hash};
-use crate::ui::scenery::fabric_looks::materials;
+use crate::ui::scenery::fabric_textures::USUAL_SIDE;
+use crate::ui::scenery::worn::{MovingWorn, Worn};
 use crate::wrap::Phase;
 
 use animated::Animated;
@@ -187,7 +187,8 @@ pub fn sequence(arguments: &Repose) -> Result<(), Failure> {
     repose::dress_first(&mut session, arguments, &mut seconds)?;
     let snapshot = Arc::clone(session.snapshot());
     let body = body_of(&session, &snapshot, &arguments.project)?;
-    check_size(&snapshot, &body, motion.frames.len(), arguments.usd)?;
+    let with = moving(&snapshot, session.document(), arguments)?;
+    check_size(&snapshot, &body, &with, motion.frames.len(), arguments.usd)?;
     output::make_folder(&arguments.out)?;
     // The old report is of another motion and must not stay beside new frames, nor that motion as USD.
     for name in ["report.json", "sequence.usdz"] {
@@ -207,8 +208,7 @@ pub fn sequence(arguments: &Repose) -> Result<(), Failure> {
         lines.push(line);
     }
     seconds.repose = Some(lines.iter().map(|line: &Line| line.seconds).sum());
-    let (bytes, usd) =
-        carrier.animated(&body, &frames, motion.fps, &materials(session.document()), arguments.usd)?;
+    let (bytes, usd) = carrier.animated(&body, &frames, motion.fps, &with, arguments.usd)?;
     seconds.total = start.elapsed().as_secs_f64();
     let fault = fault(&lines);
     let read = motion.inputs.iter().map(|path| path.display().to_string());
@@ -242,12 +242,30 @@ fn body_of(session: &Session, snapshot: &Snapshot, project: &Path) -> Result<Arc
     body.ok_or_else(|| Failure::input(project, "there is no cloth on the body"))
 }
 
+/// What the cloth is written with: its materials, textures and trims. What is left out is told.
+fn moving(snapshot: &Snapshot, document: &Document, arguments: &Repose) -> Result<MovingWorn, Failure> {
+    let (Some(garment), Some(source)) = (&snapshot.garment, &snapshot.source) else {
+        return Err(Failure::input(&arguments.project, "there is no cloth on the body"));
+    };
+    let worn = Worn { garment, cloth: &snapshot.cloth, pattern: &source.pattern, document };
+    let with = worn.moving(arguments.textures.worn(USUAL_SIDE)).map_err(Failure::Limit)?;
+    with.left_out.iter().for_each(|line| output::complain(&format!("note: {line}")));
+    Ok(with)
+}
+
 /// Refuses, before the work is done, a sequence that would not fit in the file.
-fn check_size(snapshot: &Snapshot, body: &Surface, frames: usize, usd: bool) -> Result<(), Failure> {
+fn check_size(
+    snapshot: &Snapshot,
+    body: &Surface,
+    with: &MovingWorn,
+    frames: usize,
+    usd: bool,
+) -> Result<(), Failure> {
     let cloth = snapshot.garment.as_ref().map_or(0, |garment| garment.corners.len());
-    let skin = body.mesh.positions.len();
-    let glb = (glb::animated::bytes_per_frame(cloth, skin), "glTF");
-    let usd = usd.then(|| (usd::bytes_per_frame(cloth, skin), "USDZ"));
+    let trims = snapshot.garment.as_ref().map_or(0, |garment| with.trims.vertices(garment, &snapshot.cloth));
+    let others = body.mesh.positions.len() + trims;
+    let glb = (glb::animated::bytes_per_frame(cloth, others), "glTF");
+    let usd = usd.then(|| (usd::bytes_per_frame(cloth, others), "USDZ"));
     for (each, format) in std::iter::once(glb).chain(usd) {
         if each.saturating_mul(frames) >= MOST_BYTES {
             let words = format!(
@@ -349,13 +367,15 @@ impl<'a> Carrier<'a> {
         body: &Surface,
         frames: &[Frame],
         fps: f64,
-        colours: &Colours,
+        with: &MovingWorn,
         usd: bool,
     ) -> Result<(Vec<u8>, Option<Vec<u8>>), Failure> {
         let (Some(garment), Some(source)) = (&self.snapshot.garment, &self.snapshot.source) else {
             return Err(Failure::Internal("the garment is gone".to_owned()));
         };
-        let dressed = Dressed { garment, state: &self.snapshot.cloth, pattern: &source.pattern };
+        let MovingWorn { colours, trims, .. } = with;
+        let (state, pattern) = (&*self.snapshot.cloth, &*source.pattern);
+        let dressed = Dressed { garment, state, pattern, trims: &trims.parts };
         let glb = formats::sequence_glb(dressed, &body.mesh, frames, fps, colours)?;
         let usd = usd.then(|| formats::sequence_usdz(dressed, &body.mesh, frames, fps, colours));
         Ok((glb, usd.transpose()?))

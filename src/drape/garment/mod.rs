@@ -38,6 +38,7 @@ use crate::drape::state::State;
 use crate::geometry::crossings::meetings;
 use crate::geometry::ids::PieceId;
 use crate::geometry::mesh::TriMesh;
+use crate::geometry::words::{Words, words};
 
 /// Simulated time of a tick, seconds.
 pub const TICK: f64 = 1.0 / 60.0;
@@ -102,7 +103,7 @@ pub struct DrapedSettings {
 /// Why a garment cannot be draped, in words.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("{0}")]
-pub struct Undrapable(pub String);
+pub struct Undrapable(pub Words);
 
 /// State of convergence.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -235,19 +236,19 @@ impl DrapedGarment {
         let triangles = laid.iter().map(|&t| garment.triangles[t].map(|v| own[v as usize])).collect();
         let rest: Vec<[DVec2; 3]> = laid.iter().map(|&t| garment.rest[t]).collect();
         let sheet = Sheet::new(vertices.len(), triangles, rest)
-            .map_err(|why| Undrapable(format!("the cloth cannot be draped: {why}")))?;
-        let (sheet, mut worked) = Worked::new(sheet, &garment, &own, sewn.is_some());
+            .map_err(|why| Undrapable(words!("the cloth cannot be draped: {why}", why = why.words())))?;
         let of_triangle: Vec<&Fabric> = laid.iter().map(|&t| fabric(t)).collect();
-        let first = |v: u32| of_triangle[sheet.adjacency.vertex_triangles.of(v)[0] as usize];
+        let beside = |sheet: &Sheet, v: u32| of_triangle[sheet.adjacency.vertex_triangles.of(v)[0] as usize];
+        let (sheet, mut worked) = Worked::new(sheet, &garment, &own, beside, sewn.is_some());
         let mass = weighted(masses(&sheet, &of_triangle), &garment, &own, sewn.is_some());
         let most = |of: fn(&Fabric) -> f64| of_triangle.iter().map(|f| of(f)).fold(0.0, f64::max);
         let (thickness, damping) = (most(|f| f.thickness_m), most(|f| f.damping_per_s));
-        let friction = (0..sheet.len() as u32).map(|v| first(v).friction).collect();
+        let friction = (0..sheet.len() as u32).map(|v| beside(&sheet, v).friction).collect();
         let positions: Vec<DVec3> = vertices.iter().map(|&v| cloth.positions[v as usize]).collect();
         let hanging = || steps_a_tick(&positions, sheet.mean_edge(), settings.strain);
         let count = sewn.map_or_else(hanging, |(.., substeps)| substeps);
         let slow = stable_rate(TICK / count as f64, BENDING_DAMPING);
-        let plates = plates(&garment, &own, sheet.len(), |v| first(v).bending);
+        let plates = plates(&garment, &own, sheet.len(), |v| beside(&sheet, v).bending);
         let bending = Bending::slower_than(slow, &mass, &sheet, |v| &plates[v as usize]);
         let mut pinned = vec![false; sheet.len()];
         pins.iter().filter_map(|&v| own_number(&own, v)).for_each(|v| pinned[v] = true);
@@ -503,7 +504,7 @@ impl DrapedGarment {
         self.counters.contact_checks += moved;
         if let Some(lost) = self.state.lost() {
             self.state = begun.before;
-            return Err(Undrapable(format!("vertex {} of the cloth went nowhere", fixed.vertices[lost])));
+            return Err(Undrapable(words!("vertex {n} of the cloth went nowhere", n = fixed.vertices[lost])));
         }
         if begun.advance.is_done() {
             self.measure(&begun.before, begun.span);

@@ -18,6 +18,7 @@ use crate::drape::garment::{DrapedGarment, DrapedSettings, TICK, Undrapable};
 use crate::drape::solver::ties::SewingSpring;
 use crate::geometry::adjacency::Adjacency;
 use crate::geometry::ids::PieceId;
+use crate::geometry::words::words;
 
 /// Speed at which a seam shrinks, m/s, and the fewest and most ticks that takes.
 const SHRINK: (f64, [u32; 2]) = (0.4, [45, 120]);
@@ -109,7 +110,7 @@ impl Sewing {
             }
         }
         if !some {
-            return Err(Undrapable("none of its pieces is placed in space".to_owned()));
+            return Err(Undrapable(words!("none of its pieces is placed in space")));
         }
         let (open, becomes) = (Arc::new(open), Arc::new(becomes));
         let will_be = (Arc::clone(&garment), Arc::clone(&becomes));

@@ -1,9 +1,9 @@
-//! What is worked on a garment, as the solver sees it: folds, elastic, buttons, hems and piping.
+//! What is worked on a garment, as the solver sees it: folds, elastic, buttons, hems, piping and wrinkles.
 
 use std::collections::BTreeMap;
 
-use crate::cloth::Garment;
 use crate::cloth::fabric::Bending as Plate;
+use crate::cloth::{Fabric, Garment};
 use crate::drape::forces::bands::Bands;
 use crate::drape::forces::folds::Folds;
 use crate::drape::sheet::Sheet;
@@ -19,6 +19,7 @@ const HEM_STIFFNESS: f64 = 4.0;
 
 /// Folds, elastic and fastened buttons of a garment that is draped.
 pub(in crate::drape) struct Worked {
+    /// Those of fold lines and wrinkles.
     pub folds: Folds,
     pub bands: Bands,
     /// Both points of each fastened button.
@@ -26,9 +27,16 @@ pub(in crate::drape) struct Worked {
 }
 
 impl Worked {
-    /// What is worked on `garment`, whose vertices are numbered `own` in `sheet`. The sheet is then creased along the folds. Nothing
-    /// is, while it is still `sewn`: pieces are neither folded nor buttoned before, and elastic without weight slides off upwards.
-    pub fn new(sheet: Sheet, garment: &Garment, own: &[u32], is_sewn: bool) -> (Sheet, Self) {
+    /// What is worked on `garment`, whose vertices are numbered `own` in `sheet`. The sheet is then creased along the folds
+    /// and at all edges in wrinkles; `fabric` is that of a vertex of the sheet. Nothing is, while it is still `sewn`: pieces are
+    /// neither folded nor buttoned before, and elastic without weight slides off upwards.
+    pub fn new<'a>(
+        sheet: Sheet,
+        garment: &Garment,
+        own: &[u32],
+        fabric: impl Fn(&Sheet, u32) -> &'a Fabric,
+        is_sewn: bool,
+    ) -> (Sheet, Self) {
         if is_sewn {
             let (folds, bands) = (Folds::default(), Bands::default());
             return (sheet, Self { folds, bands, buttons: Vec::new() });
@@ -42,8 +50,14 @@ impl Worked {
         let bands = elastics.filter_map(|e| Some((ends(e.corners)?, e.what.ratio, e.what.tension)));
         let bands = Bands::new(&sheet, bands);
         let folds = trims.folds.iter();
-        let edges: Vec<([u32; 2], f64, f64)> =
-            folds.filter_map(|f| Some((ends(f.corners)?, f.what.angle, f.what.strength))).collect();
+        let folds = folds.filter_map(|f| Some((ends(f.corners)?, f.what.angle, f.what.strength)));
+        let bent = trims.wrinkles.iter().filter_map(|bend| {
+            let ends = ends(bend.corners)?;
+            let Plate { warp, weft, .. } = fabric(&sheet, ends[0]).bending;
+            Some((ends, bend.what.angle, bend.what.strength((warp * weft).sqrt())))
+        });
+        // Where both are, the fold counts: it comes first.
+        let edges: Vec<([u32; 2], f64, f64)> = folds.chain(bent).collect();
         let sheet = sheet.creased(edges.iter().map(|(ends, ..)| *ends));
         let folds = Folds::new(&sheet, edges);
         let point = |point: &crate::cloth::trims::ClothPoint| {

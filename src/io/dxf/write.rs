@@ -11,6 +11,7 @@ use glam::DVec2;
 
 use super::layer;
 use super::pieces::line_layer;
+use crate::geometry::words::words;
 use crate::io::rul::RuleTable;
 use crate::io::trace::contour::Contour;
 use crate::io::trace::fit::Knot;
@@ -85,7 +86,7 @@ pub fn write_on(pattern: &Pattern, cloth: Option<&ClothSheet>) -> Written {
     let mut left_out = written::left_out(pattern, &holds);
     // Saving to memory fails only for what R12 cannot hold, and this drawing has nothing of that kind.
     if let Err(error) = drawing.save(&mut bytes) {
-        left_out.push(format!("the drawing could not be written: {error}"));
+        left_out.push(words!("the drawing could not be written: {why}", why = error.to_string()));
     }
     let rules = is_graded.then(|| rules.write("PATTERN"));
     Written { bytes: without_times(&bytes), left_out, rules }

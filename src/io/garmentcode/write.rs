@@ -9,6 +9,7 @@ use serde_json::{Value, json};
 
 use super::read::LARGEST_CURVATURE;
 use crate::geometry::ids::{PieceId, SeamId};
+use crate::geometry::words::{Words, within_quotes, words};
 use crate::io::Written;
 use crate::io::written::{self, Part};
 use crate::pattern::{
@@ -26,7 +27,11 @@ const FEWEST_EDGES: usize = 3;
 pub fn write(pattern: &Pattern) -> Written {
     let mut left_out = written::left_out(pattern, &HOLDS);
     let (cut, problems) = CutPattern::new(&with_enough_edges(pattern));
-    left_out.extend(problems.into_iter().map(|p| format!("{}: not in the file: {}", p.place, p.words)));
+    left_out.extend(
+        problems
+            .into_iter()
+            .map(|p| words!("{names}: not in the file: {what}", names = p.place, what = p.words)),
+    );
     let names = unique_names(pattern, &mut left_out);
     let (seams, of_holes): (Vec<_>, Vec<_>) = cut
         .seams
@@ -34,7 +39,7 @@ pub fn write(pattern: &Pattern) -> Written {
         .partition(|(_, seam)| seam.sides.iter().all(|s| is_on_outline(&cut, s.piece, s.edge)));
     let of_holes: BTreeSet<SeamId> = of_holes.into_iter().map(|(id, _)| id).collect();
     let of_holes: Vec<SeamId> = of_holes.into_iter().collect();
-    left_out.extend(written::seams_left_out(&of_holes, "it runs along a hole, and holes are not"));
+    left_out.extend(written::seams_left_out(&of_holes, words!("it runs along a hole, and holes are not")));
     let is_relative = cut.pieces.values().all(|piece| has_near_controls(&piece.outline));
     let panels: Vec<(&str, Value)> =
         cut.pieces.iter().map(|(id, piece)| (names[id].as_str(), panel(piece, is_relative))).collect();
@@ -102,7 +107,7 @@ fn is_on_outline(cut: &CutPattern, piece: PieceId, edge: usize) -> bool {
 }
 
 /// A different name for each panel, since stitches refer to panels by name. Changed names are noted in `left_out`.
-fn unique_names(pattern: &Pattern, left_out: &mut Vec<String>) -> BTreeMap<PieceId, String> {
+fn unique_names(pattern: &Pattern, left_out: &mut Vec<Words>) -> BTreeMap<PieceId, String> {
     let mut names = BTreeMap::new();
     let mut taken = BTreeSet::new();
     for (&id, piece) in &pattern.pieces {
@@ -111,7 +116,12 @@ fn unique_names(pattern: &Pattern, left_out: &mut Vec<String>) -> BTreeMap<Piece
         for name in candidates {
             if taken.insert(name.clone()) {
                 if name != piece.name {
-                    left_out.push(format!("{} ({id}): it is called {name:?} in the file", piece.name));
+                    left_out.push(words!(
+                        "{piece} ({id}): it is called \"{name}\" in the file",
+                        piece = piece.name,
+                        id,
+                        name = within_quotes(&name)
+                    ));
                 }
                 names.insert(id, name);
                 break;

@@ -7,7 +7,7 @@ fn square(name: &str) -> Piece {
     Piece::polygon(name, &corners.map(|(x, y)| DVec2::new(x, y)))
 }
 
-fn again(pattern: &Pattern) -> (Pattern, Vec<String>) {
+fn again(pattern: &Pattern) -> (Pattern, Vec<Words>) {
     let written = write(pattern);
     (read(&written.bytes).expect("what was written can be read"), written.left_out)
 }

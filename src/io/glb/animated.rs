@@ -2,7 +2,8 @@
 //! between the frames' weights.
 //!
 //! Morph targets are the only way of glTF 2.0 to move single vertices (section 3.7.2.2). They hold positions and normals as
-//! 32-bit floats, so a body vertex takes 24 bytes per frame, and a cloth vertex 36, as its two sides have their own normals.
+//! 32-bit floats, so a vertex of the body or of trims takes 24 bytes per frame, and a cloth vertex 36, as its two sides have their
+//! own normals.
 
 use glam::DVec3;
 use gltf_json::accessor::{ComponentType, Type};
@@ -14,16 +15,17 @@ use gltf_json::{Accessor, Index};
 use super::{Builder, GlbError, accessor};
 use crate::cloth::ClothState;
 use crate::geometry::mesh::{TriMesh, vertex_normals};
-use crate::io::dressed::{Dressed, Frame, PieceArrays};
+use crate::io::dressed::{Dressed, Frame, PieceArrays, TrimArrays};
 use crate::io::materials::Colours;
 
-/// Approximate number of bytes that one frame adds to the file.
+/// Approximate number of bytes that one frame adds to the file; trims count as the body does.
 pub fn bytes_per_frame(cloth_vertices: usize, body_vertices: usize) -> usize {
     36 * cloth_vertices + 24 * body_vertices
 }
 
-/// Writes the garment and the body animated through `frames`. The vertices of each frame are those of `dressed.garment` and of
-/// `body`, of which only the triangles are used. Triangles that are not yet placed on the body are left out.
+/// Writes the garment with its trims and the body animated through `frames`. The vertices of each frame are those of
+/// `dressed.garment` and of `body`, of which only the triangles are used. Triangles that are not yet placed on the body are left
+/// out.
 pub fn write_animated(
     dressed: Dressed<'_>,
     body: &TriMesh,
@@ -60,6 +62,17 @@ pub fn write_animated(
         let others = frames[1..].iter().map(arrays);
         let moves = others.map(|piece| (piece.positions, piece.normals));
         builder.moving((&shown.positions, &shown.normals), moves, 2);
+    }
+    for (part, material) in dressed.trims(colours) {
+        let arrays = |frame: &Frame| {
+            let state = cloth(frame);
+            let normals = vertex_normals(&state.positions, &on_body);
+            TrimArrays::new(&Dressed { state: &state, ..dressed }, part, &normals)
+        };
+        let shown = arrays(first);
+        builder.trim(&shown, &material);
+        let moves = frames[1..].iter().map(arrays).map(|trim| (trim.positions, trim.normals));
+        builder.moving((&shown.positions, &shown.normals), moves, 1);
     }
     let bodies: Vec<&[DVec3]> = frames.iter().map(|frame| &*frame.body).collect();
     builder.moving_body(&body.triangles, &bodies, colours);
@@ -182,7 +195,8 @@ impl Builder {
 mod tests {
     use super::super::tests::parsed;
     use super::*;
-    use crate::io::dressed::tests::two_squares;
+    use crate::io::dressed::tests::{trimmed_squares, two_squares};
+    use crate::io::materials::{TextureImage, Textures};
 
     /// The vectors of an accessor.
     fn vectors(root: &gltf_json::Root, data: &[u8], at: Index<Accessor>) -> Vec<DVec3> {
@@ -208,7 +222,7 @@ mod tests {
             Frame { cloth, body: body.positions.iter().map(|p| *p - shift).collect() }
         };
         let frames: Vec<Frame> = (0..4).map(frame).collect();
-        let dressed = Dressed { garment: &garment, state: &state, pattern: &pattern };
+        let dressed = Dressed { garment: &garment, state: &state, pattern: &pattern, trims: &[] };
         let bytes = write_animated(dressed, &body, &frames, 25.0, &Colours::default()).expect("a file");
         let (root, data) = parsed(&bytes);
         assert_eq!((root.meshes.len(), root.animations.len()), (3, 1));
@@ -231,6 +245,47 @@ mod tests {
             let moved = vectors(&root, data, target.positions.expect("places"));
             for (v, p) in frames[i + 1].body.iter().enumerate() {
                 assert!((base[v] + moved[v]).distance(*p) < 1e-6, "frame {} vertex {v}", i + 1);
+            }
+        }
+    }
+
+    #[test]
+    fn trims_and_textures_move_along() {
+        let (pattern, garment, state, trims) = trimmed_squares();
+        let shift = DVec3::new(0.1, -0.2, 0.3);
+        let frame = |i: usize| Frame {
+            cloth: state.positions.iter().map(|p| *p + shift * i as f64).collect(),
+            body: vec![DVec3::ZERO, DVec3::X, DVec3::Y],
+        };
+        let frames: Vec<Frame> = (0..3).map(frame).collect();
+        let body = TriMesh { positions: frames[0].body.clone(), triangles: vec![[0, 1, 2]] };
+        let dressed = Dressed { garment: &garment, state: &state, pattern: &pattern, trims: &trims };
+        let image = TextureImage { name: "colour".to_owned(), png: std::sync::Arc::new(vec![1, 2, 3]) };
+        let textures = Textures { images: vec![image], ..Textures::default() };
+        let textured = crate::io::materials::ClothMaterial {
+            textures: Some(crate::io::materials::ClothTextures { sides: [0; 2], normal: None, weave: None }),
+            ..Colours::default().of(crate::geometry::ids::PieceId(0))
+        };
+        let colours = Colours {
+            pieces: pattern.pieces.keys().map(|&id| (id, textured.clone())).collect(),
+            textures: Some(std::sync::Arc::new(textures)),
+            ..Colours::default()
+        };
+        let bytes = write_animated(dressed, &body, &frames, 25.0, &colours).expect("a file");
+        let (root, data) = parsed(&bytes);
+        assert_eq!((root.images.len(), root.textures.len()), (1, 1));
+        let front = root.get(root.meshes[0].primitives[0].material.expect("a material")).expect("it");
+        assert!(front.pbr_metallic_roughness.base_color_texture.is_some());
+        assert_eq!(root.meshes.len(), 2 + trims.len() + 1);
+        assert_eq!(root.animations[0].channels.len(), root.meshes.len());
+        for mesh in &root.meshes[2..2 + trims.len()] {
+            let name = mesh.name.as_deref().unwrap_or_default();
+            let targets = mesh.primitives[0].targets.as_ref().expect("they move");
+            assert_eq!(targets.len(), 2, "{name}");
+            for (i, target) in targets.iter().enumerate() {
+                for moved in vectors(&root, data, target.positions.expect("places")) {
+                    assert!(moved.distance(shift * (i + 1) as f64) < 1e-6, "{name}: {moved}");
+                }
             }
         }
     }

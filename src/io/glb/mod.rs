@@ -1,4 +1,5 @@
-//! Writes scenes as binary glTF 2.0 (GLB): the garment as one mesh per piece with a material for each side, and the body.
+//! Writes scenes as binary glTF 2.0 (GLB): the garment as one mesh per piece with a material for each side, its trims as one mesh
+//! for each kind and colour, and the body.
 //!
 //! Texture coordinates are the pattern plane in metres, u = x and v = 1 - y, since glTF counts v downward. With textures they are
 //! those of the atlas; a second set then counts repeats of the weave.
@@ -17,7 +18,7 @@ use images::Map;
 
 use crate::geometry::ids::PieceId;
 use crate::geometry::mesh::{TriMesh, vertex_normals};
-use crate::io::dressed::{Dressed, PieceArrays};
+use crate::io::dressed::{Dressed, PieceArrays, TrimArrays};
 use crate::io::materials::{ClothMaterial, ClothTextures, Colours, ROUGHNESS, Textures};
 
 /// Why no file was written.
@@ -85,6 +86,9 @@ impl Builder {
                 self.piece(name, &piece, sides);
             }
         }
+        for (part, material) in dressed.trims(colours) {
+            self.trim(&TrimArrays::new(dressed, part, &normals), &material);
+        }
     }
 
     /// Adds a piece as one mesh with two single-sided primitives, for the front and the back of the cloth.
@@ -105,12 +109,33 @@ impl Builder {
         self.node(name, primitives);
     }
 
+    /// Adds trims as one mesh, which is called like its material. The layer of a hem is seen from both sides.
+    fn trim(&mut self, trim: &TrimArrays, made_of: &ClothMaterial) {
+        let ClothMaterial { name, sides: [colour, _], roughness, opacity, textures: _ } = made_of;
+        let material = self.material(name, *colour, *roughness, *opacity, [None; 2]);
+        if let Some(material) = self.root.materials.get_mut(material.value()) {
+            material.double_sided = true;
+        }
+        self.plain(name, [&trim.positions, &trim.normals], &trim.triangles, material);
+    }
+
     fn body(&mut self, body: &TriMesh, colours: &Colours) {
         let material = self.material("body", colours.body, ROUGHNESS, 1.0, [None; 2]);
-        let positions = self.vectors(&body.positions, true);
-        let normals = self.vectors(&body.vertex_normals(), false);
-        let triangles = self.triangles(&body.triangles);
-        self.node("body", vec![primitive([positions, normals], &[], triangles, material)]);
+        self.plain("body", [&body.positions, &body.vertex_normals()], &body.triangles, material);
+    }
+
+    /// Adds a mesh without texture coordinates.
+    fn plain(
+        &mut self,
+        name: &str,
+        [positions, normals]: [&[DVec3]; 2],
+        triangles: &[[u32; 3]],
+        material: Index<Material>,
+    ) {
+        let positions = self.vectors(positions, true);
+        let normals = self.vectors(normals, false);
+        let triangles = self.triangles(triangles);
+        self.node(name, vec![primitive([positions, normals], &[], triangles, material)]);
     }
 
     fn node(&mut self, name: &str, primitives: Vec<Primitive>) {
@@ -302,7 +327,7 @@ mod tests {
     use gltf_json::validation::Validate;
 
     use super::*;
-    use crate::io::dressed::tests::two_squares;
+    use crate::io::dressed::tests::{trimmed_squares, two_squares};
 
     pub(super) fn parsed(bytes: &[u8]) -> (Root, &[u8]) {
         assert_eq!(&bytes[..4], b"glTF");
@@ -323,7 +348,7 @@ mod tests {
     fn a_garment_on_a_body_is_valid_gltf() {
         let (pattern, garment, state) = two_squares();
         let body = TriMesh { positions: vec![DVec3::ZERO, DVec3::X, DVec3::Y], triangles: vec![[0, 1, 2]] };
-        let dressed = Dressed { garment: &garment, state: &state, pattern: &pattern };
+        let dressed = Dressed { garment: &garment, state: &state, pattern: &pattern, trims: &[] };
         let bytes = write(Some(dressed), Some(&body), &Colours::default()).expect("a file");
         let (root, data) = parsed(&bytes);
         let names: Vec<_> = root.nodes.iter().filter_map(|n| n.name.as_deref()).collect();
@@ -348,7 +373,47 @@ mod tests {
         let (pattern, garment, mut state) = two_squares();
         state.mapped.fill(false);
         state.positions.fill(DVec3::NAN);
-        let dressed = Dressed { garment: &garment, state: &state, pattern: &pattern };
+        let dressed = Dressed { garment: &garment, state: &state, pattern: &pattern, trims: &[] };
         assert!(matches!(write(Some(dressed), None, &Colours::default()), Err(GlbError::Empty)));
+    }
+
+    #[test]
+    fn trims_are_meshes_of_their_own_where_the_cloth_has_them() {
+        let (pattern, garment, state, trims) = trimmed_squares();
+        let dressed = Dressed { garment: &garment, state: &state, pattern: &pattern, trims: &trims };
+        let bytes = write(Some(dressed), None, &Colours::default()).expect("a file");
+        let (root, _) = parsed(&bytes);
+        let names: Vec<_> = root.nodes.iter().filter_map(|n| n.name.as_deref()).collect();
+        assert_eq!(names, ["a", "b", "Piping", "Button", "Button thread", "Buttonhole", "Stitches"]);
+        for mesh in &root.meshes[2..] {
+            let material = root.get(mesh.primitives[0].material.expect("a material")).expect("a material");
+            assert_eq!(material.name, mesh.name);
+            assert!(material.double_sided);
+        }
+        let bounds = |name: &str| {
+            let mesh = root.meshes.iter().find(|m| m.name.as_deref() == Some(name)).expect("a mesh");
+            let positions = mesh.primitives[0].attributes[&Checked::Valid(Semantic::Positions)];
+            let positions = root.get(positions).expect("positions");
+            let corner = |value: &Option<serde_json::Value>| {
+                let value = value.as_ref().expect("bounds");
+                DVec3::from_array([0, 1, 2].map(|k| value[k].as_f64().expect("a number")))
+            };
+            (corner(&positions.min), corner(&positions.max))
+        };
+        let is_near = |a: DVec3, b: DVec3| a.distance(b) < 2e-4;
+        // A cord of 2 mm radius along the lower edge of 0.1 m, with domed ends.
+        let (low, high) = bounds("Piping");
+        assert!(is_near(low, DVec3::new(-0.0008, -0.002, -0.002)), "{low}");
+        assert!(is_near(high, DVec3::new(0.1008, 0.002, 0.002)), "{high}");
+        // The button is fastened: on its hole, 3.45 mm high.
+        let (low, high) = bounds("Button");
+        assert!(is_near(low, DVec3::new(0.0545, 0.0445, 0.00095)), "{low}");
+        assert!(is_near(high, DVec3::new(0.0655, 0.0555, 0.00345)), "{high}");
+        let (low, high) = bounds("Stitches");
+        assert!(is_near(low.with_y(0.0), DVec3::new(0.01 - 0.00042, 0.0, -0.00042)), "{low}");
+        assert!(is_near(high.with_y(0.0), DVec3::new(0.01 + 0.00042, 0.0, 0.00042)), "{high}");
+        assert!(low.y < 0.002 && high.y > 0.098, "{low} {high}");
+        let without = write(Some(Dressed { trims: &[], ..dressed }), None, &Colours::default());
+        assert_eq!(parsed(&without.expect("a file")).0.meshes.len(), 2);
     }
 }

@@ -13,6 +13,7 @@ use krilla::Document;
 use krilla::metadata::Metadata;
 use krilla::page::PageSettings;
 
+use crate::geometry::words::{Words, words};
 use crate::io::trace::{self, Traced};
 use crate::io::written::{self, Part};
 use crate::io::{ClothSheet, Written};
@@ -50,15 +51,11 @@ const LONGEST_CLOTH: f64 = 5000.0;
 const POINTS: f64 = 72.0 / 25.4;
 
 /// Why there is no PDF.
-#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[derive(Clone, Debug, PartialEq, Eq)]
 pub enum PdfError {
     /// The pattern has no pieces.
-    #[error("the pattern has no pieces")]
     Empty,
     /// The pattern does not fit a single PDF page.
-    #[error(
-        "one page would be {width} × {height} mm, and a PDF page is at most {most} mm long; print on A4 or Letter"
-    )]
     TooLarge {
         /// Width of the page that would be needed, millimetres.
         width: u64,
@@ -68,12 +65,39 @@ pub enum PdfError {
         most: u64,
     },
     /// The pattern would take more than `MOST_PAGES` pages; their number.
-    #[error("it would take {0} pages; {MOST_PAGES} are allowed: check the size of the pattern")]
     TooManyPages(usize),
     /// The PDF library failed.
-    #[error("the PDF could not be made: {0}")]
     Library(String),
 }
+
+impl PdfError {
+    /// The error in words.
+    pub fn words(&self) -> Words {
+        match self {
+            Self::Empty => words!("the pattern has no pieces"),
+            Self::TooLarge { width, height, most } => words!(
+                "one page would be {width} × {height} mm, and a PDF page is at most {most} mm long; print on A4 or Letter",
+                width,
+                height,
+                most
+            ),
+            Self::TooManyPages(n) => words!(
+                "it would take {n} pages; {most} are allowed: check the size of the pattern",
+                n,
+                most = MOST_PAGES
+            ),
+            Self::Library(why) => words!("the PDF could not be made: {why}", why),
+        }
+    }
+}
+
+impl std::fmt::Display for PdfError {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.write_str(&self.words())
+    }
+}
+
+impl std::error::Error for PdfError {}
 
 const MOST_PAGES: usize = 2000;
 

@@ -1,5 +1,5 @@
-//! Writes scenes as USD: the garment as one mesh per piece and the body, with materials as UsdPreviewSurface; as text (.usda) with
-//! images beside it, or as one package (.usdz).
+//! Writes scenes as USD: the garment as one mesh per piece, its trims as one mesh for each kind and colour, and the body, with
+//! materials as UsdPreviewSurface; as text (.usda) with images beside it, or as one package (.usdz).
 //!
 //! Texture coordinates `st` are the pattern plane in metres, or with textures those of the atlas; `st1` then counts repeats of
 //! the weave. Materials of USD know no sides: those of the outer side are seen from both.
@@ -16,7 +16,7 @@ use glam::DVec3;
 
 use crate::cloth::ClothState;
 use crate::geometry::mesh::{TriMesh, vertex_normals};
-use crate::io::dressed::{Dressed, Frame, PieceArrays};
+use crate::io::dressed::{Dressed, Frame, PieceArrays, TrimArrays};
 use crate::io::materials::{ClothMaterial, Colours, ROUGHNESS};
 use meshes::{MeshArrays, MovedMesh};
 use names::Names;
@@ -66,7 +66,7 @@ impl UsdFormat {
     }
 }
 
-/// Approximate number of bytes that one frame adds to a moving scene.
+/// Approximate number of bytes that one frame adds to a moving scene; trims count as the body does.
 pub fn bytes_per_frame(cloth_vertices: usize, body_vertices: usize) -> usize {
     84 * (cloth_vertices + body_vertices)
 }
@@ -100,7 +100,7 @@ impl UsdScene {
 
     /// The scene of `dressed` on `body` that moves through `frames`, one at each time code from 0. The vertices of each frame are
     /// those of `dressed.garment` and of `body`, of which only the triangles are used. Triangles that are not yet placed on the
-    /// body are left out. Textures are not written.
+    /// body are left out. Images are expected as by [`UsdScene::new`].
     ///
     /// # Errors
     /// There is neither cloth nor body, or there are no frames.
@@ -110,11 +110,11 @@ impl UsdScene {
         frames: &[Frame],
         frames_per_second: f64,
         colours: &Colours,
+        image_path: impl Fn(&str) -> String,
     ) -> Result<Self, UsdError> {
         let first = frames.first().ok_or(UsdError::Empty)?;
         let state = ClothState { positions: first.cloth.clone(), mapped: dressed.state.mapped.clone() };
-        let colours = Colours { textures: None, ..colours.clone() };
-        let mut builder = Builder::new(&colours, &str::to_owned);
+        let mut builder = Builder::new(colours, &image_path);
         builder.garment(&Dressed { state: &state, ..dressed }, frames);
         builder.body(&TriMesh { positions: first.body.clone(), triangles: body.triangles.clone() }, frames);
         builder.finish(&[
@@ -195,6 +195,30 @@ impl<'a> Builder<'a> {
                 frames.iter().zip(&moved).map(|(frame, normals)| (of(&frame.cloth), of(normals))).collect();
             self.piece(name, &piece, &self.colours.of(*id), &moved);
         }
+        let state_of =
+            |frame: &Frame| ClothState { positions: frame.cloth.clone(), mapped: state.mapped.clone() };
+        for (part, material) in dressed.trims(self.colours) {
+            let trim = |(frame, normals): (&Frame, &Vec<DVec3>)| {
+                let moved = TrimArrays::new(&Dressed { state: &state_of(frame), ..*dressed }, part, normals);
+                (moved.positions, moved.normals)
+            };
+            let moved: Vec<MovedMesh> = frames.iter().zip(&moved).map(trim).collect();
+            self.trim(&TrimArrays::new(dressed, part, &normals), &material, &moved);
+        }
+    }
+
+    /// Adds trims, which are called like their material. The layer of a hem is seen from both sides.
+    fn trim(&mut self, trim: &TrimArrays, material: &ClothMaterial, frames: &[MovedMesh]) {
+        let made_of = self.cloth_material(material);
+        let arrays = MeshArrays {
+            positions: &trim.positions,
+            normals: &trim.normals,
+            triangles: &trim.triangles,
+            coordinates: COORDINATES.map(|name| (name, &[][..])),
+            is_double_sided: true,
+            colour: material.sides[0],
+        };
+        self.mesh(&material.name, &made_of, arrays, frames);
     }
 
     fn piece(&mut self, name: &str, piece: &PieceArrays, material: &ClothMaterial, frames: &[MovedMesh]) {

@@ -2,7 +2,7 @@ use glam::{DAffine2, DVec2};
 
 use super::*;
 use crate::io::atlas::Atlas;
-use crate::io::dressed::tests::two_squares;
+use crate::io::dressed::tests::{trimmed_squares, two_squares};
 use crate::io::materials::{ClothTextures, TextureImage, Textures};
 
 /// A colour, the inner side, and a weave.
@@ -74,7 +74,7 @@ fn pieces_of_one_name_and_the_body_are_told_apart() {
         *name = "body".to_owned();
     }
     let body = TriMesh { positions: vec![DVec3::ZERO, DVec3::X, DVec3::Y], triangles: vec![[0, 1, 2]] };
-    let dressed = Dressed { garment: &garment, state: &state, pattern: &pattern };
+    let dressed = Dressed { garment: &garment, state: &state, pattern: &pattern, trims: &[] };
     let scene = UsdScene::new(dressed, Some(&body), &Colours::default(), str::to_owned).expect("a scene");
     let text = scene.text();
     for name in ["body", "body_2", "body_3"] {
@@ -90,7 +90,7 @@ fn cloth_not_yet_on_the_body_is_left_out() {
     let (pattern, garment, mut state) = two_squares();
     state.mapped.fill(false);
     state.positions.fill(DVec3::NAN);
-    let dressed = Dressed { garment: &garment, state: &state, pattern: &pattern };
+    let dressed = Dressed { garment: &garment, state: &state, pattern: &pattern, trims: &[] };
     let written = UsdScene::new(dressed, None, &Colours::default(), str::to_owned);
     assert!(matches!(written, Err(UsdError::Empty)));
 }
@@ -104,8 +104,9 @@ fn every_frame_has_its_time() {
         Frame { cloth: moved(&state.positions), body: moved(&body.positions) }
     };
     let frames: Vec<Frame> = (0..3).map(frame).collect();
-    let dressed = Dressed { garment: &garment, state: &state, pattern: &pattern };
-    let scene = UsdScene::moving(dressed, &body, &frames, 25.0, &Colours::default()).expect("a scene");
+    let dressed = Dressed { garment: &garment, state: &state, pattern: &pattern, trims: &[] };
+    let scene =
+        UsdScene::moving(dressed, &body, &frames, 25.0, &Colours::default(), str::to_owned).expect("a scene");
     let text = scene.text();
     for words in ["startTimeCode = 0\n", "endTimeCode = 2\n", "timeCodesPerSecond = 25\n", "upAxis = \"Y\"\n"]
     {
@@ -114,6 +115,44 @@ fn every_frame_has_its_time() {
     assert_eq!(text.matches("points.timeSamples").count(), 3, "{text}");
     let last = "2: [(0, 2, 0), (1, 2, 0), (0, 3, 0)], }\n";
     assert!(text.contains(last), "{text}");
-    let nothing = UsdScene::moving(dressed, &body, &[], 25.0, &Colours::default());
+    let nothing = UsdScene::moving(dressed, &body, &[], 25.0, &Colours::default(), str::to_owned);
     assert!(matches!(nothing, Err(UsdError::Empty)));
+}
+
+#[test]
+fn trims_are_meshes_with_materials_of_their_own_that_move() {
+    let (pattern, garment, state, trims) = trimmed_squares();
+    let dressed = Dressed { garment: &garment, state: &state, pattern: &pattern, trims: &trims };
+    let still = UsdScene::new(dressed, None, &Colours::default(), str::to_owned).expect("a scene");
+    for name in ["Piping", "Button", "Button_thread", "Buttonhole", "Stitches"] {
+        assert!(still.text().contains(&format!("def Mesh \"{name}\" (")), "{name}: {}", still.text());
+        assert!(still.text().contains(&format!("def Material \"{name}\"")), "{name}: {}", still.text());
+    }
+    assert_eq!(still.text().matches("def Mesh").count(), 2 + trims.len());
+    let frame = |i: usize| Frame {
+        cloth: state.positions.iter().map(|p| *p + DVec3::Y * i as f64).collect(),
+        body: vec![DVec3::ZERO, DVec3::X, DVec3::Y],
+    };
+    let frames: Vec<Frame> = (0..2).map(frame).collect();
+    let body = TriMesh { positions: frames[0].body.clone(), triangles: vec![[0, 1, 2]] };
+    let image_path = |name: &str| format!("textures/{name}.png");
+    let moving = UsdScene::moving(dressed, &body, &frames, 25.0, &textured(), image_path).expect("a scene");
+    assert_eq!(moving.text().matches("points.timeSamples").count(), 2 + trims.len() + 1);
+    let without = UsdScene::new(Dressed { trims: &[], ..dressed }, None, &Colours::default(), str::to_owned);
+    assert_eq!(without.expect("a scene").text().matches("def Mesh").count(), 2);
+}
+
+#[test]
+fn moving_cloth_keeps_its_textures() {
+    let (pattern, garment, state) = two_squares();
+    let body = TriMesh { positions: vec![DVec3::ZERO, DVec3::X, DVec3::Y], triangles: vec![[0, 1, 2]] };
+    let frame = || Frame { cloth: state.positions.clone(), body: body.positions.clone() };
+    let dressed = Dressed { garment: &garment, state: &state, pattern: &pattern, trims: &[] };
+    let colours = Colours { pieces: pattern.pieces.keys().map(|&id| (id, denim())).collect(), ..textured() };
+    let image_path = |name: &str| format!("textures/{name}.png");
+    let frames = [frame(), frame()];
+    let scene = UsdScene::moving(dressed, &body, &frames, 25.0, &colours, image_path).expect("a scene");
+    let names: Vec<&str> = scene.images().iter().map(|(path, _)| path.as_str()).collect();
+    assert_eq!(names, ["textures/colour.png", "textures/weave-1.png"]);
+    assert_eq!(scene.text().matches("@./textures/colour.png@").count(), 1, "one material for both");
 }

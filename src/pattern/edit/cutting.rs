@@ -6,6 +6,7 @@ use glam::DVec2;
 
 use crate::geometry::ids::{PieceId, SeamId};
 use crate::geometry::polygon::{contains, signed_area};
+use crate::geometry::words::{Words, decimal, words};
 use crate::pattern::edit::lines::{self, fraction_at, halves};
 use crate::pattern::edit::pieces::{change, fresh_name};
 use crate::pattern::edit::symmetry::loosen;
@@ -27,12 +28,12 @@ pub(super) fn cut(
     id: PieceId,
     line: &InternalLine,
     sew: bool,
-) -> Result<Change, String> {
+) -> Result<Change, Words> {
     let name = find(pattern, id)?.name.clone();
-    let Some(first) = line.edges.first() else { return Err("the cut has no line".to_owned()) };
+    let Some(first) = line.edges.first() else { return Err(words!("the cut has no line")) };
     let (from, to) = (first.start, line.end);
     loosen(pattern, id);
-    let miss = |_| format!("a cut goes from edge to edge of {name}");
+    let miss = |_| words!("a cut goes from edge to edge of {name}", name);
     let a = point_on_outline(pattern, id, from).map_err(miss)?;
     let a_place = find(pattern, id)?.edge(a).start;
     let b = point_on_outline(pattern, id, to).map_err(miss)?;
@@ -44,9 +45,9 @@ pub(super) fn cut(
     join(&mut path, [piece.edge(a), piece.edge(b)]);
     if a == b || (path.edges.len() == 1 && ((a + 1) % n == b || (b + 1) % n == a) && is_straight(piece, a, b))
     {
-        return Err(format!("the cut does not cut {name}"));
+        return Err(words!("the cut does not cut {name}", name));
     }
-    inside(piece, &path).map_err(|()| format!("the cut leaves {name} between its ends"))?;
+    inside(piece, &path).map_err(|()| words!("the cut leaves {name} between its ends", name))?;
     for point in [a, b] {
         lines::split_seams_at(pattern, EdgeRef { piece: id, edge: point });
     }
@@ -100,7 +101,7 @@ pub(super) fn cut(
             inside: Some(polygons[part].clone()),
         })
         .to_vec();
-    Ok(Change { carried, ..Change::new(format!("cut {name}")) })
+    Ok(Change { carried, ..Change::new(words!("cut {name}", name)) })
 }
 
 /// Makes `path` begin and end exactly at the points where these edges start, with their grade rules.
@@ -237,17 +238,17 @@ pub(super) fn dart(
     at: f64,
     width: f64,
     depth: f64,
-) -> Result<Change, String> {
+) -> Result<Change, Words> {
     let piece = find(pattern, edge.piece)?.clone();
     points::edge_number(&piece, edge.edge)?;
     let length = piece.exact_edge_length(edge.edge);
     let (from, to) = (at - width / 2.0 / length, at + width / 2.0 / length);
     let room = SMALLEST_DART / length;
     if !(width >= SMALLEST_DART && depth >= SMALLEST_DART && from > room && to < 1.0 - room) {
-        return Err(format!(
-            "a dart {:.1} cm wide does not fit on an edge of {:.1} cm there",
-            width * 100.0,
-            length * 100.0
+        return Err(words!(
+            "a dart {width} cm wide does not fit on an edge of {length} cm there",
+            width = decimal(width * 100.0, 1),
+            length = decimal(length * 100.0, 1)
         ));
     }
     let image = symmetric_image(&piece, edge.edge);
@@ -257,10 +258,10 @@ pub(super) fn dart(
     for (number, from, to) in sites {
         one_dart(pattern, EdgeRef { edge: number, ..edge }, from, to, depth)?;
     }
-    Ok(Change::new(format!("cut a dart into {}", piece.name)))
+    Ok(Change::new(words!("cut a dart into {name}", name = piece.name)))
 }
 
-fn one_dart(pattern: &mut Pattern, edge: EdgeRef, from: f64, to: f64, depth: f64) -> Result<(), String> {
+fn one_dart(pattern: &mut Pattern, edge: EdgeRef, from: f64, to: f64, depth: f64) -> Result<(), Words> {
     lines::insert_points(pattern, edge, &[from, to]);
     let mouth = EdgeRef { edge: edge.edge + 1, ..edge };
     let piece = find(pattern, edge.piece)?.clone();
@@ -272,7 +273,7 @@ fn one_dart(pattern: &mut Pattern, edge: EdgeRef, from: f64, to: f64, depth: f64
     let tip = (a + b) / 2.0 + inward * depth;
     let outline = piece.flattened(TOLERANCE);
     if !contains(&outline, tip) {
-        return Err(format!("the tip of the dart lies outside {}", piece.name));
+        return Err(words!("the tip of the dart lies outside {name}", name = piece.name));
     }
     // The edge was sewn as a whole: now its two parts are sewn, one after the other, to what it was sewn to.
     let seams: Vec<(SeamId, Seam)> = pattern.seams.iter().map(|(&id, &seam)| (id, seam)).collect();
@@ -318,60 +319,60 @@ fn hole_runs_as_outline(piece: &Piece, k: usize) -> bool {
     hole * piece.signed_area() < 0.0
 }
 
-pub(super) fn add_notch(pattern: &mut Pattern, edge: EdgeRef, at: f64) -> Result<Change, String> {
+pub(super) fn add_notch(pattern: &mut Pattern, edge: EdgeRef, at: f64) -> Result<Change, Words> {
     let piece = find(pattern, edge.piece)?;
     points::edge_number(piece, edge.edge)?;
     if !(0.0..=1.0).contains(&at) {
-        return Err("a notch lies on its edge".to_owned());
+        return Err(words!("a notch lies on its edge"));
     }
     let image = symmetric_image(piece, edge.edge).map(|image| Notch { edge: image, at: 1.0 - at });
     change(pattern, edge.piece, |p| {
         p.notches.push(Notch { edge: edge.edge, at });
         p.notches.extend(image);
     });
-    Ok(Change::new("add a notch"))
+    Ok(Change::new(words!("add a notch")))
 }
 
-pub(super) fn delete_notch(pattern: &mut Pattern, id: PieceId, notch: usize) -> Result<Change, String> {
+pub(super) fn delete_notch(pattern: &mut Pattern, id: PieceId, notch: usize) -> Result<Change, Words> {
     let piece = find(pattern, id)?;
     if notch >= piece.notches.len() {
-        return Err(format!("{} has no notch {}", piece.name, notch.saturating_add(1)));
+        return Err(words!("{name} has no notch {n}", name = piece.name, n = notch.saturating_add(1)));
     }
     change(pattern, id, |p| {
         p.notches.remove(notch);
     });
-    Ok(Change::new("take a notch away"))
+    Ok(Change::new(words!("take a notch away")))
 }
 
-pub(super) fn add_line(pattern: &mut Pattern, id: PieceId, line: &InternalLine) -> Result<Change, String> {
+pub(super) fn add_line(pattern: &mut Pattern, id: PieceId, line: &InternalLine) -> Result<Change, Words> {
     find(pattern, id)?;
     change(pattern, id, |p| p.lines.push(line.clone()));
-    Ok(Change::new("draw a line"))
+    Ok(Change::new(words!("draw a line")))
 }
 
-pub(super) fn delete_line(pattern: &mut Pattern, id: PieceId, line: usize) -> Result<Change, String> {
+pub(super) fn delete_line(pattern: &mut Pattern, id: PieceId, line: usize) -> Result<Change, Words> {
     let piece = find(pattern, id)?;
     if line >= piece.lines.len() {
-        return Err(format!("{} has no line {}", piece.name, line.saturating_add(1)));
+        return Err(words!("{name} has no line {n}", name = piece.name, n = line.saturating_add(1)));
     }
     change(pattern, id, |p| {
         p.lines.remove(line);
     });
-    Ok(Change::new("take a line away"))
+    Ok(Change::new(words!("take a line away")))
 }
 
 pub(super) fn set_grainline(
     pattern: &mut Pattern,
     id: PieceId,
     grainline: Option<[DVec2; 2]>,
-) -> Result<Change, String> {
+) -> Result<Change, Words> {
     let piece = find(pattern, id)?;
     if let Some([tail, head]) = grainline
         && tail.distance(head) < AT_POINT
     {
-        return Err("a grainline has two ends".to_owned());
+        return Err(words!("a grainline has two ends"));
     }
-    let label = format!("draw the grain of {}", piece.name);
+    let label = words!("draw the grain of {name}", name = piece.name);
     change(pattern, id, |p| p.grainline = grainline);
     Ok(Change::new(label))
 }

@@ -2,55 +2,56 @@
 
 use crate::geometry::ids::{ButtonId, SeamId};
 use crate::geometry::polygon;
+use crate::geometry::words::{Words, words};
 use crate::pattern::edit::{Carried, Change, find};
 use crate::pattern::{Button, Pattern, PiecePoint, Zip};
 
 /// Most buttons of a pattern.
 pub const MOST_BUTTONS: usize = 1_000;
 
-pub(super) fn add_buttons(pattern: &mut Pattern, buttons: &[Button]) -> Result<Change, String> {
+pub(super) fn add_buttons(pattern: &mut Pattern, buttons: &[Button]) -> Result<Change, Words> {
     if buttons.is_empty() {
-        return Err("there is no button to sew on".to_owned());
+        return Err(words!("there is no button to sew on"));
     }
     if pattern.buttons.len() + buttons.len() > MOST_BUTTONS {
-        return Err(format!("a pattern may have {MOST_BUTTONS} buttons"));
+        return Err(words!("a pattern may have {most} buttons", most = MOST_BUTTONS));
     }
     for button in buttons {
         check(pattern, button)?;
         pattern.add_button(*button);
     }
-    Ok(Change::new("sew on buttons"))
+    Ok(Change::new(words!("sew on buttons")))
 }
 
-pub(super) fn set_button(pattern: &mut Pattern, id: ButtonId, button: &Button) -> Result<Change, String> {
+pub(super) fn set_button(pattern: &mut Pattern, id: ButtonId, button: &Button) -> Result<Change, Words> {
     check(pattern, button)?;
     *known(pattern, id)? = *button;
-    Ok(Change::new("change a button"))
+    Ok(Change::new(words!("change a button")))
 }
 
-pub(super) fn delete_buttons(pattern: &mut Pattern, buttons: &[ButtonId]) -> Result<Change, String> {
+pub(super) fn delete_buttons(pattern: &mut Pattern, buttons: &[ButtonId]) -> Result<Change, Words> {
     for &id in buttons {
         known(pattern, id)?;
         pattern.buttons.remove(&id);
     }
-    Ok(Change::new("take buttons off"))
+    Ok(Change::new(words!("take buttons off")))
 }
 
-pub(super) fn fasten(pattern: &mut Pattern, buttons: &[ButtonId], fastened: bool) -> Result<Change, String> {
+pub(super) fn fasten(pattern: &mut Pattern, buttons: &[ButtonId], fastened: bool) -> Result<Change, Words> {
     for &id in buttons {
         known(pattern, id)?.open = !fastened;
     }
-    Ok(Change::new(if fastened { "fasten" } else { "unfasten" }))
+    Ok(Change::new(if fastened { words!("fasten") } else { words!("unfasten") }))
 }
 
-pub(super) fn set_zip(pattern: &mut Pattern, id: SeamId, zip: Option<Zip>) -> Result<Change, String> {
-    let seam = pattern.seams.get_mut(&id).ok_or_else(|| format!("there is no {id}"))?;
+pub(super) fn set_zip(pattern: &mut Pattern, id: SeamId, zip: Option<Zip>) -> Result<Change, Words> {
+    let seam = pattern.seams.get_mut(&id).ok_or_else(|| words!("there is no {what}", what = id))?;
     let label = match (seam.zip, zip) {
-        (None, Some(_)) => "put in a zip",
-        (_, None) => "take a zip out",
-        (Some(old), Some(new)) if new.open > old.open => "open a zip",
-        (Some(old), Some(new)) if new.open < old.open => "close a zip",
-        _ => "change a zip",
+        (None, Some(_)) => words!("put in a zip"),
+        (_, None) => words!("take a zip out"),
+        (Some(old), Some(new)) if new.open > old.open => words!("open a zip"),
+        (Some(old), Some(new)) if new.open < old.open => words!("close a zip"),
+        _ => words!("change a zip"),
     };
     seam.zip = zip;
     Ok(Change::new(label))
@@ -75,11 +76,11 @@ pub(super) fn carry(pattern: &mut Pattern, carried: &[Carried]) {
     buttons.retain(|_, button| button.pieces().iter().all(|piece| pieces.contains_key(piece)));
 }
 
-fn known(pattern: &mut Pattern, id: ButtonId) -> Result<&mut Button, String> {
-    pattern.buttons.get_mut(&id).ok_or_else(|| format!("there is no {id}"))
+fn known(pattern: &mut Pattern, id: ButtonId) -> Result<&mut Button, Words> {
+    pattern.buttons.get_mut(&id).ok_or_else(|| words!("there is no {what}", what = id))
 }
 
-fn check(pattern: &Pattern, button: &Button) -> Result<(), String> {
+fn check(pattern: &Pattern, button: &Button) -> Result<(), Words> {
     for piece in button.pieces() {
         find(pattern, piece)?;
     }

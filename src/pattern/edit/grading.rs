@@ -5,11 +5,12 @@ use std::sync::Arc;
 
 use glam::DVec2;
 
+use crate::geometry::words::{Words, words};
 use crate::pattern::edit::lines::previous;
 use crate::pattern::edit::{Change, find, mirror, points};
 use crate::pattern::{GradeRule, Pattern, Piece, RulePoint, SizeRun};
 
-pub(super) fn set_sizes(pattern: &mut Pattern, sizes: &SizeRun) -> Result<Change, String> {
+pub(super) fn set_sizes(pattern: &mut Pattern, sizes: &SizeRun) -> Result<Change, Words> {
     if let Some(words) = sizes.problem() {
         return Err(words);
     }
@@ -17,7 +18,7 @@ pub(super) fn set_sizes(pattern: &mut Pattern, sizes: &SizeRun) -> Result<Change
     for piece in pattern.pieces.values_mut() {
         take_run(piece, &old, sizes);
     }
-    Ok(Change::new(if sizes.is_empty() { "remove the sizes" } else { "set the sizes" }))
+    Ok(Change::new(if sizes.is_empty() { words!("remove the sizes") } else { words!("set the sizes") }))
 }
 
 /// For each size of `new` its number in `old`: that of the same name; where no name is in both but that of the base, the one
@@ -35,14 +36,14 @@ fn places(old: &SizeRun, new: &SizeRun) -> Vec<Option<usize>> {
 pub(super) fn set_rules(
     pattern: &mut Pattern,
     rules: &[(RulePoint, Option<GradeRule>)],
-) -> Result<Change, String> {
+) -> Result<Change, Words> {
     if rules.is_empty() {
-        return Err("no point was named".to_owned());
+        return Err(words!("no point was named"));
     }
     let SizeRun { names, base } = &pattern.sizes;
     let (count, base) = (names.len(), *base);
     if count == 0 && rules.iter().any(|(_, rule)| rule.is_some()) {
-        return Err("the pattern has no sizes: choose a size run first".to_owned());
+        return Err(words!("the pattern has no sizes: choose a size run first"));
     }
     if let Some(words) = rules.iter().find_map(|(_, rule)| rule.as_ref()?.problem(count, base)) {
         return Err(words);
@@ -51,7 +52,11 @@ pub(super) fn set_rules(
         let piece = find(pattern, at.piece)?;
         if piece.place_of(at).is_none() {
             let number = at.point.saturating_add(1);
-            return Err(format!("{} has no point {number} that could have a rule", piece.name));
+            return Err(words!(
+                "{name} has no point {n} that could have a rule",
+                name = piece.name,
+                n = number
+            ));
         }
         let image = match at.line {
             None => symmetric_image(piece, at.point),
@@ -65,9 +70,14 @@ pub(super) fn set_rules(
             }
         }
     }
-    let what = if rules.iter().all(|(_, rule)| rule.is_none()) { "clear" } else { "set" };
-    let count = rules.iter().map(|(at, _)| at).collect::<BTreeSet<_>>().len();
-    Ok(Change::new(if count == 1 { format!("{what} a rule") } else { format!("{what} {count} rules") }))
+    let clears = rules.iter().all(|(_, rule)| rule.is_none());
+    let n = rules.iter().map(|(at, _)| at).collect::<BTreeSet<_>>().len();
+    Ok(Change::new(match (clears, n) {
+        (true, 1) => words!("clear a rule"),
+        (true, _) => words!("clear {n} rules", n),
+        (false, 1) => words!("set a rule"),
+        (false, _) => words!("set {n} rules", n),
+    }))
 }
 
 /// The mirror image of a point of a symmetric piece's outline, where that is another.

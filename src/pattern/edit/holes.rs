@@ -2,6 +2,7 @@
 
 use crate::geometry::ids::PieceId;
 use crate::geometry::polygon::{contains, signed_area};
+use crate::geometry::words::{Words, words};
 use crate::pattern::edit::pieces::change;
 use crate::pattern::edit::{Change, find};
 use crate::pattern::piece::flattened_loop;
@@ -10,27 +11,27 @@ use crate::pattern::{Edge, Pattern, curve};
 /// Tolerance of the polylines of outline and hole, metres.
 const TOLERANCE: f64 = 1e-4;
 
-pub(super) fn add_hole(pattern: &mut Pattern, id: PieceId, edges: &[Edge]) -> Result<Change, String> {
+pub(super) fn add_hole(pattern: &mut Pattern, id: PieceId, edges: &[Edge]) -> Result<Change, Words> {
     let piece = find(pattern, id)?;
     let outline = piece.flattened(TOLERANCE);
     let hole = flattened_loop(edges, TOLERANCE);
     if edges.len() < 2 || !hole.iter().all(|&p| contains(&outline, p)) {
-        return Err(format!("a hole lies inside the outline of {}", piece.name));
+        return Err(words!("a hole lies inside the outline of {name}", name = piece.name));
     }
     // The cloth must be on the same side of all closed lines, so that seams join them front to front.
     let against = signed_area(&hole) * piece.signed_area() < 0.0;
     let edges = if against { edges.to_vec() } else { curve::reversed(edges) };
     change(pattern, id, |p| p.holes.push(edges));
-    Ok(Change::new("cut a hole"))
+    Ok(Change::new(words!("cut a hole")))
 }
 
-pub(super) fn delete_hole(pattern: &mut Pattern, id: PieceId, hole: usize) -> Result<Change, String> {
+pub(super) fn delete_hole(pattern: &mut Pattern, id: PieceId, hole: usize) -> Result<Change, Words> {
     let piece = find(pattern, id)?;
     if hole >= piece.holes.len() {
-        return Err(format!("{} has no hole {}", piece.name, hole.saturating_add(1)));
+        return Err(words!("{name} has no hole {n}", name = piece.name, n = hole.saturating_add(1)));
     }
     drop_hole(pattern, id, hole);
-    Ok(Change::new("close a hole"))
+    Ok(Change::new(words!("close a hole")))
 }
 
 /// Removes hole `hole` with its seams; the edges of later holes get lower numbers.

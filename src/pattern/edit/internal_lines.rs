@@ -5,13 +5,14 @@ use std::collections::BTreeMap;
 use glam::DVec2;
 
 use crate::geometry::ids::PieceId;
+use crate::geometry::words::{Words, words};
 use crate::pattern::edit::pieces::change;
 use crate::pattern::edit::{Change, LinePoint, PointRef, SHORTEST_EDGE, find, lines, points};
 use crate::pattern::{Edge, EdgeRef, InternalLine, Pattern, Piece};
 
-pub(super) fn move_points(pattern: &mut Pattern, moves: &[(LinePoint, DVec2)]) -> Result<Change, String> {
+pub(super) fn move_points(pattern: &mut Pattern, moves: &[(LinePoint, DVec2)]) -> Result<Change, Words> {
     if moves.is_empty() {
-        return Err("no point was named".to_owned());
+        return Err(words!("no point was named"));
     }
     let mut of_line: BTreeMap<(PieceId, usize), BTreeMap<usize, DVec2>> = BTreeMap::new();
     for (at, to) in moves {
@@ -23,37 +24,41 @@ pub(super) fn move_points(pattern: &mut Pattern, moves: &[(LinePoint, DVec2)]) -
         let (old, new) = (&piece.lines[line], put(&piece.lines[line], &moved));
         // Lines of files may have points that fall together already.
         if chords(&new).zip(chords(old)).any(|(new, old)| !(new >= SHORTEST_EDGE || old < SHORTEST_EDGE)) {
-            return Err(format!("two points of line {} of {} would fall together", line + 1, piece.name));
+            return Err(words!(
+                "two points of line {n} of {name} would fall together",
+                n = line + 1,
+                name = piece.name
+            ));
         }
         change(pattern, id, |piece| piece.lines[line] = new);
     }
     Ok(Change::new(match moves.len() {
-        1 => "move a point".to_owned(),
-        n => format!("move {n} points"),
+        1 => words!("move a point"),
+        n => words!("move {n} points", n),
     }))
 }
 
-pub(super) fn insert(pattern: &mut Pattern, edge: LinePoint, at: f64) -> Result<Change, String> {
+pub(super) fn insert(pattern: &mut Pattern, edge: LinePoint, at: f64) -> Result<Change, Words> {
     let line = line_of(pattern, edge)?;
     if edge.point == line.edges.len() {
-        return Err("no edge starts at the end of a line".to_owned());
+        return Err(words!("no edge starts at the end of a line"));
     }
     if !(at > 0.0 && at < 1.0) {
-        return Err("a point on an edge lies between its ends".to_owned());
+        return Err(words!("a point on an edge lies between its ends"));
     }
     let mut closed = Closed::new(line);
     let on = EdgeRef { piece: closed.id, edge: edge.point };
     lines::insert_points(&mut closed.pattern, on, &[at]);
     let new = closed.opened(line);
     change(pattern, edge.piece, |piece| piece.lines[edge.line] = new);
-    Ok(Change::new("add a point"))
+    Ok(Change::new(words!("add a point")))
 }
 
-pub(super) fn delete(pattern: &mut Pattern, at: LinePoint) -> Result<Change, String> {
+pub(super) fn delete(pattern: &mut Pattern, at: LinePoint) -> Result<Change, Words> {
     let line = line_of(pattern, at)?;
     let last = line.edges.len();
     if last < 2 {
-        return Err("a line needs two points at least: take the line away".to_owned());
+        return Err(words!("a line needs two points at least: take the line away"));
     }
     let mut new = line.clone();
     if at.point == 0 {
@@ -66,13 +71,13 @@ pub(super) fn delete(pattern: &mut Pattern, at: LinePoint) -> Result<Change, Str
         (new.end, new.end_rule) = (edge.start, edge.rule);
     }
     change(pattern, at.piece, |piece| piece.lines[at.line] = new);
-    Ok(Change::new("take a point away"))
+    Ok(Change::new(words!("take a point away")))
 }
 
-pub(super) fn set_smooth(pattern: &mut Pattern, at: LinePoint, smooth: bool) -> Result<Change, String> {
+pub(super) fn set_smooth(pattern: &mut Pattern, at: LinePoint, smooth: bool) -> Result<Change, Words> {
     let line = line_of(pattern, at)?;
     if at.point == 0 || at.point == line.edges.len() {
-        return Err("at its ends a line is neither smooth nor has it a corner".to_owned());
+        return Err(words!("at its ends a line is neither smooth nor has it a corner"));
     }
     let mut closed = Closed::new(line);
     let point = PointRef { piece: closed.id, point: at.point };
@@ -83,13 +88,16 @@ pub(super) fn set_smooth(pattern: &mut Pattern, at: LinePoint, smooth: bool) -> 
 }
 
 /// The line that a point is on. Err where there is no such line or point.
-fn line_of(pattern: &Pattern, at: LinePoint) -> Result<&InternalLine, String> {
+fn line_of(pattern: &Pattern, at: LinePoint) -> Result<&InternalLine, Words> {
     let piece = find(pattern, at.piece)?;
     let number = at.line.saturating_add(1);
-    let line = piece.lines.get(at.line).ok_or_else(|| format!("{} has no line {number}", piece.name))?;
+    let line = piece
+        .lines
+        .get(at.line)
+        .ok_or_else(|| words!("{name} has no line {n}", name = piece.name, n = number))?;
     if line.point(at.point).is_none() {
         let point = at.point.saturating_add(1);
-        return Err(format!("line {number} of {} has no point {point}", piece.name));
+        return Err(words!("line {n} of {name} has no point {point}", n = number, name = piece.name, point));
     }
     Ok(line)
 }
@@ -173,7 +181,7 @@ mod tests {
         pattern
     }
 
-    fn moved(pattern: &Pattern, moves: &[(usize, DVec2)]) -> Result<Pattern, String> {
+    fn moved(pattern: &Pattern, moves: &[(usize, DVec2)]) -> Result<Pattern, Words> {
         let at = |point| LinePoint { piece: A, line: 0, point };
         let points = moves.iter().map(|&(point, to)| (at(point), to)).collect();
         apply(pattern, &PatternEdit::MoveLinePoints { points }).map(|edited| edited.pattern)

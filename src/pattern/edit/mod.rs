@@ -5,6 +5,7 @@ mod fastenings;
 pub(in crate::pattern) mod grading;
 mod holes;
 mod internal_lines;
+mod labels;
 mod lengths;
 mod lines;
 mod mirror;
@@ -22,10 +23,11 @@ use glam::{DAffine2, DVec2};
 use serde::{Deserialize, Serialize};
 
 use crate::geometry::ids::{ButtonId, PieceId, SeamId};
+use crate::geometry::words::{Words, words};
 use crate::pattern::activity::Activity;
 use crate::pattern::{
     AllowanceCorner, Button, Edge, EdgeRef, EdgeShape, Elastic, Fold, GradeRule, Hem, InternalLine, Pattern,
-    Piece, Piping, PlanePose, RulePoint, Seam, SizeRun, SpacePose, Topstitch, Zip, curve,
+    Piece, Piping, PlanePose, RulePoint, Seam, SizeRun, SpacePose, Topstitch, Wrinkle, Zip, curve,
 };
 pub use cutting::nearest_on_edge;
 pub use fastenings::MOST_BUTTONS;
@@ -170,6 +172,8 @@ pub enum PatternEdit {
     SetHem { lines: Vec<TrimLine>, hem: Option<Hem> },
     /// Sew piping in along edges or internal lines, or (None) take it out.
     SetPiping { lines: Vec<TrimLine>, piping: Option<Piping> },
+    /// Raise cloth to a wrinkle along internal lines, or (None) smooth it out.
+    SetWrinkle { lines: Vec<TrimLine>, wrinkle: Option<Wrinkle> },
 
     /// Sew on buttons, each with its buttonhole.
     AddButtons { buttons: Vec<Button> },
@@ -259,22 +263,22 @@ pub struct Edited {
     /// The pattern afterwards.
     pub pattern: Pattern,
     /// Name of the edit for menus: "Undo LABEL".
-    pub label: String,
+    pub label: Words,
     /// How points moved. On pieces that are not listed they stayed where they were.
     pub carried: Vec<Carried>,
 }
 
 /// The result of one edit before seam lengths and mirror images are restored.
 struct Change {
-    label: String,
+    label: Words,
     /// Points that the person moved.
     held: BTreeSet<EdgeRef>,
     carried: Vec<Carried>,
 }
 
 impl Change {
-    fn new(label: impl Into<String>) -> Self {
-        Self { label: label.into(), held: BTreeSet::new(), carried: Vec::new() }
+    fn new(label: Words) -> Self {
+        Self { label, held: BTreeSet::new(), carried: Vec::new() }
     }
 }
 
@@ -282,7 +286,7 @@ impl Change {
 const SHORTEST_EDGE: f64 = 1e-5;
 
 /// Applies `edit` to `pattern`. Err: why not, for a person.
-pub fn apply(pattern: &Pattern, edit: &PatternEdit) -> Result<Edited, String> {
+pub fn apply(pattern: &Pattern, edit: &PatternEdit) -> Result<Edited, Words> {
     let mut new = pattern.clone();
     let change = carry_out(&mut new, edit)?;
     fastenings::carry(&mut new, &change.carried);
@@ -298,7 +302,7 @@ pub fn apply(pattern: &Pattern, edit: &PatternEdit) -> Result<Edited, String> {
     for (id, piece) in &new.pieces {
         let same = pattern.pieces.get(id).is_some_and(|old| Arc::ptr_eq(old, piece));
         if !same && (0..piece.edge_count()).any(|i| is_short(piece, i)) {
-            return Err(format!("two points of {} would fall together", piece.name));
+            return Err(words!("two points of {name} would fall together", name = piece.name));
         }
     }
     Ok(Edited { pattern: new, label: change.label, carried: change.carried })
@@ -310,19 +314,20 @@ fn is_short(piece: &Piece, edge: usize) -> bool {
     !chord.is_finite() || chord < SHORTEST_EDGE
 }
 
-fn words_for(pattern: &Pattern, id: SeamId) -> String {
+fn words_for(pattern: &Pattern, id: SeamId) -> Words {
     let name = |k: usize| {
         let piece = pattern.seams.get(&id).and_then(|seam| pattern.pieces.get(&seam.sides[k].piece));
-        piece.map_or("a piece", |p| &p.name).to_owned()
+        piece.map_or_else(|| words!("a piece"), |p| Words::plain(&*p.name))
     };
-    format!(
-        "the sides of {id} ({} and {}) cannot be kept in their ratio: let its lengths change freely first",
-        name(0),
-        name(1)
+    words!(
+        "the sides of {id} ({one} and {other}) cannot be kept in their ratio: let its lengths change freely first",
+        id,
+        one = name(0),
+        other = name(1)
     )
 }
 
-fn carry_out(pattern: &mut Pattern, edit: &PatternEdit) -> Result<Change, String> {
+fn carry_out(pattern: &mut Pattern, edit: &PatternEdit) -> Result<Change, Words> {
     match edit {
         PatternEdit::AddPiece { piece } => Ok(pieces::add(pattern, piece)),
         PatternEdit::DeletePieces { pieces } => pieces::delete(pattern, pieces),
@@ -338,11 +343,11 @@ fn carry_out(pattern: &mut Pattern, edit: &PatternEdit) -> Result<Change, String
         PatternEdit::Scale { pieces, about, factor } => pieces::scale(pattern, pieces, *about, *factor),
         PatternEdit::Rename { piece, name } => pieces::rename(pattern, *piece, name),
         PatternEdit::SetLocked { pieces, locked } => {
-            let what = if *locked { "lock" } else { "unlock" };
+            let what = if *locked { labels::LOCK } else { labels::UNLOCK };
             pieces::set_all(pattern, pieces, what, |p| p.locked = *locked)
         }
         PatternEdit::SetHidden { pieces, hidden } => {
-            let what = if *hidden { "hide" } else { "show" };
+            let what = if *hidden { labels::HIDE } else { labels::SHOW };
             pieces::set_all(pattern, pieces, what, |p| p.hidden = *hidden)
         }
         PatternEdit::SetLayer { pieces, layer } => pieces::set_layer(pattern, pieces, *layer),
@@ -368,25 +373,26 @@ fn carry_out(pattern: &mut Pattern, edit: &PatternEdit) -> Result<Change, String
         PatternEdit::SetAllowance { pieces, width } => pieces::set_allowance(pattern, pieces, *width),
         PatternEdit::SetCorner { point, corner } => points::set_corner(pattern, *point, *corner),
         PatternEdit::SetFold { lines, fold } => {
-            let what = if fold.is_some() { "fold" } else { "unfold a crease" };
+            let what = if fold.is_some() { words!("fold") } else { words!("unfold a crease") };
             trims::set(pattern, lines, what, |trims| trims.fold = *fold)
         }
         PatternEdit::SetElastic { lines, elastic } => {
-            let what = if elastic.is_some() { "sew on elastic" } else { "take elastic off" };
+            let what = if elastic.is_some() { words!("sew on elastic") } else { words!("take elastic off") };
             trims::set(pattern, lines, what, |trims| trims.elastic = *elastic)
         }
         PatternEdit::SetTopstitch { lines, topstitch } => {
-            let what = if topstitch.is_some() { "topstitch" } else { "unpick topstitching" };
+            let what = if topstitch.is_some() { words!("topstitch") } else { words!("unpick topstitching") };
             trims::set(pattern, lines, what, |trims| trims.topstitch = *topstitch)
         }
         PatternEdit::SetHem { lines, hem } => {
-            let what = if hem.is_some() { "hem" } else { "unpick a hem" };
+            let what = if hem.is_some() { words!("hem") } else { words!("unpick a hem") };
             trims::set(pattern, lines, what, |trims| trims.hem = *hem)
         }
         PatternEdit::SetPiping { lines, piping } => {
-            let what = if piping.is_some() { "sew piping in" } else { "take piping out" };
+            let what = if piping.is_some() { words!("sew piping in") } else { words!("take piping out") };
             trims::set(pattern, lines, what, |trims| trims.piping = *piping)
         }
+        PatternEdit::SetWrinkle { lines, wrinkle } => trims::set_wrinkle(pattern, lines, *wrinkle),
         PatternEdit::AddButtons { buttons } => fastenings::add_buttons(pattern, buttons),
         PatternEdit::SetButton { id, button } => fastenings::set_button(pattern, *id, button),
         PatternEdit::DeleteButtons { buttons } => fastenings::delete_buttons(pattern, buttons),
@@ -430,7 +436,8 @@ fn pieces_named(edit: &PatternEdit) -> Vec<PieceId> {
         | PatternEdit::SetElastic { lines, .. }
         | PatternEdit::SetTopstitch { lines, .. }
         | PatternEdit::SetHem { lines, .. }
-        | PatternEdit::SetPiping { lines, .. } => lines.iter().map(TrimLine::piece).collect(),
+        | PatternEdit::SetPiping { lines, .. }
+        | PatternEdit::SetWrinkle { lines, .. } => lines.iter().map(TrimLine::piece).collect(),
         _ => Vec::new(),
     }
 }
@@ -464,8 +471,8 @@ fn symmetric_image(piece: &Piece, edge: usize) -> Option<usize> {
     (piece.symmetric && edge < n).then(|| n - 1 - edge)
 }
 
-fn find(pattern: &Pattern, id: PieceId) -> Result<&Arc<Piece>, String> {
-    pattern.pieces.get(&id).ok_or_else(|| format!("there is no {id}"))
+fn find(pattern: &Pattern, id: PieceId) -> Result<&Arc<Piece>, Words> {
+    pattern.pieces.get(&id).ok_or_else(|| words!("there is no {what}", what = id))
 }
 
 /// Whether a closed line is exactly its own mirror image, as [`Piece::symmetric`] requires.

@@ -6,8 +6,10 @@ use std::sync::Arc;
 use glam::{DAffine2, DMat2, DVec2};
 
 use crate::geometry::ids::PieceId;
+use crate::geometry::words::{Words, words};
 use crate::pattern::activity::Activity;
 use crate::pattern::edit::grading::drop_foreign;
+use crate::pattern::edit::labels::{self, Label, named};
 use crate::pattern::edit::lines::{self, Part};
 use crate::pattern::edit::{Carried, Change, find, is_symmetric, points};
 use crate::pattern::layers::MOST_LAYER;
@@ -26,13 +28,13 @@ pub(super) fn add(pattern: &mut Pattern, piece: &Arc<Piece>) -> Change {
     let mut piece = Piece::clone(piece);
     piece.twin = None;
     drop_foreign(&mut piece, &pattern.sizes);
-    let label = format!("add {}", piece.name);
+    let label = words!("add {name}", name = piece.name);
     pattern.add_piece(piece);
     Change::new(label)
 }
 
-pub(super) fn delete(pattern: &mut Pattern, ids: &[PieceId]) -> Result<Change, String> {
-    let label = named(pattern, "delete", ids)?;
+pub(super) fn delete(pattern: &mut Pattern, ids: &[PieceId]) -> Result<Change, Words> {
+    let label = named(pattern, labels::DELETE, ids)?;
     for id in ids {
         if let Some(twin) = pattern.pieces.get(id).and_then(|p| p.twin) {
             change(pattern, twin, |p| p.twin = None);
@@ -43,8 +45,8 @@ pub(super) fn delete(pattern: &mut Pattern, ids: &[PieceId]) -> Result<Change, S
     Ok(Change::new(label))
 }
 
-pub(super) fn duplicate(pattern: &mut Pattern, ids: &[PieceId], offset: DVec2) -> Result<Change, String> {
-    let label = named(pattern, "duplicate", ids)?;
+pub(super) fn duplicate(pattern: &mut Pattern, ids: &[PieceId], offset: DVec2) -> Result<Change, Words> {
+    let label = named(pattern, labels::DUPLICATE, ids)?;
     let originals: BTreeSet<PieceId> = ids.iter().copied().collect();
     let mut copies: BTreeMap<PieceId, PieceId> = BTreeMap::new();
     for &id in &originals {
@@ -68,9 +70,9 @@ pub(super) fn duplicate(pattern: &mut Pattern, ids: &[PieceId], offset: DVec2) -
     Ok(Change::new(label))
 }
 
-pub(super) fn place(pattern: &mut Pattern, poses: &[(PieceId, PlanePose)]) -> Result<Change, String> {
+pub(super) fn place(pattern: &mut Pattern, poses: &[(PieceId, PlanePose)]) -> Result<Change, Words> {
     let ids: Vec<PieceId> = poses.iter().map(|(id, _)| *id).collect();
-    let label = named(pattern, "move", &ids)?;
+    let label = named(pattern, labels::MOVE, &ids)?;
     for &(id, pose) in poses {
         change(pattern, id, |p| p.pose = pose);
     }
@@ -80,9 +82,9 @@ pub(super) fn place(pattern: &mut Pattern, poses: &[(PieceId, PlanePose)]) -> Re
 pub(super) fn place_in_space(
     pattern: &mut Pattern,
     placements: &[(PieceId, Option<SpacePose>)],
-) -> Result<Change, String> {
+) -> Result<Change, Words> {
     let ids: Vec<PieceId> = placements.iter().map(|(id, _)| *id).collect();
-    let what = if placements.iter().any(|(_, pose)| pose.is_some()) { "place" } else { "take from the body" };
+    let what = if placements.iter().any(|(_, pose)| pose.is_some()) { labels::PLACE } else { labels::TAKE };
     let label = named(pattern, what, &ids)?;
     for &(id, placement) in placements {
         change(pattern, id, |p| p.placement = placement);
@@ -90,24 +92,29 @@ pub(super) fn place_in_space(
     Ok(Change::new(label))
 }
 
-pub(super) fn set_outline(pattern: &mut Pattern, id: PieceId, outline: &[Edge]) -> Result<Change, String> {
+pub(super) fn set_outline(pattern: &mut Pattern, id: PieceId, outline: &[Edge]) -> Result<Change, Words> {
     let piece = find(pattern, id)?.clone();
     let is_sewn = |id| pattern.seams.values().any(|s| s.sides.iter().any(|side| side.piece == id));
     let (old, new) = (piece.outline.len(), outline.len());
     if old != new && (is_sewn(id) || piece.twin.is_some_and(is_sewn)) {
-        return Err(format!(
-            "{} is sewn by its {old} edges: undo its seams before giving it {new}",
-            piece.name
+        return Err(words!(
+            "{name} is sewn by its {old} edges: undo its seams before giving it {new}",
+            name = piece.name,
+            old,
+            new
         ));
     }
     if piece.symmetric && !is_symmetric(outline) {
-        return Err(format!("{} is symmetric, this outline is not: unlink its halves first", piece.name));
+        return Err(words!(
+            "{name} is symmetric, this outline is not: unlink its halves first",
+            name = piece.name
+        ));
     }
     // Edges keep their numbers where they still exist; those of holes come after them.
     let map = (0..old).map(|i| if i < new { vec![Part::whole(i)] } else { Vec::new() }).collect();
     lines::replace(pattern, id, 0, outline.to_vec(), &map);
     let held = (0..new).map(|edge| EdgeRef { piece: id, edge }).collect();
-    Ok(Change { held, ..Change::new(format!("redraw {}", piece.name)) })
+    Ok(Change { held, ..Change::new(words!("redraw {name}", name = piece.name)) })
 }
 
 pub(super) fn scale(
@@ -115,10 +122,14 @@ pub(super) fn scale(
     ids: &[PieceId],
     about: DVec2,
     factor: DVec2,
-) -> Result<Change, String> {
-    let label = named(pattern, "scale", ids)?;
+) -> Result<Change, Words> {
+    let label = named(pattern, labels::SCALE, ids)?;
     if !SCALES.contains(&factor.x) || !SCALES.contains(&factor.y) {
-        return Err(format!("a piece is scaled by {} to {}", SCALES.start(), SCALES.end()));
+        return Err(words!(
+            "a piece is scaled by {least} to {most}",
+            least = SCALES.start(),
+            most = SCALES.end()
+        ));
     }
     let ids: BTreeSet<PieceId> = ids.iter().copied().collect();
     let mut result = Change::new(label);
@@ -205,8 +216,8 @@ pub(super) fn map_piece(piece: &mut Piece, map: DAffine2) {
     piece.grainline = piece.grainline.map(|ends| ends.map(|p| map.transform_point2(p)));
 }
 
-pub(super) fn rename(pattern: &mut Pattern, id: PieceId, name: &str) -> Result<Change, String> {
-    let label = format!("rename {} to {name}", find(pattern, id)?.name);
+pub(super) fn rename(pattern: &mut Pattern, id: PieceId, name: &str) -> Result<Change, Words> {
+    let label = words!("rename {old} to {name}", old = find(pattern, id)?.name, name);
     change(pattern, id, |p| name.clone_into(&mut p.name));
     Ok(Change::new(label))
 }
@@ -214,9 +225,9 @@ pub(super) fn rename(pattern: &mut Pattern, id: PieceId, name: &str) -> Result<C
 pub(super) fn set_all(
     pattern: &mut Pattern,
     ids: &[PieceId],
-    what: &str,
+    what: Label,
     set: impl Fn(&mut Piece),
-) -> Result<Change, String> {
+) -> Result<Change, Words> {
     let label = named(pattern, what, ids)?;
     for &id in ids {
         change(pattern, id, &set);
@@ -224,53 +235,41 @@ pub(super) fn set_all(
     Ok(Change::new(label))
 }
 
-pub(super) fn set_layer(pattern: &mut Pattern, ids: &[PieceId], layer: u8) -> Result<Change, String> {
+pub(super) fn set_layer(pattern: &mut Pattern, ids: &[PieceId], layer: u8) -> Result<Change, Words> {
     if layer > MOST_LAYER {
-        return Err(format!("layer {layer} is none: there are 0 to {MOST_LAYER}"));
+        return Err(words!("layer {layer} is none: there are 0 to {most}", layer, most = MOST_LAYER));
     }
-    set_all(pattern, ids, "wear on another layer", |p| p.layer = layer)
+    set_all(pattern, ids, labels::LAYER, |p| p.layer = layer)
 }
 
 pub(super) fn set_activity(
     pattern: &mut Pattern,
     ids: &[PieceId],
     activity: Activity,
-) -> Result<Change, String> {
+) -> Result<Change, Words> {
     let what = match activity {
-        Activity::Active => "activate",
-        Activity::Frozen => "freeze",
-        Activity::Deactivated => "deactivate",
+        Activity::Active => labels::ACTIVATE,
+        Activity::Frozen => labels::FREEZE,
+        Activity::Deactivated => labels::DEACTIVATE,
     };
     set_all(pattern, ids, what, |p| p.activity = activity)
 }
 
-pub(super) fn set_allowance(pattern: &mut Pattern, ids: &[PieceId], width: f64) -> Result<Change, String> {
+pub(super) fn set_allowance(pattern: &mut Pattern, ids: &[PieceId], width: f64) -> Result<Change, Words> {
     if !(0.0..=WIDEST_ALLOWANCE).contains(&width) {
-        return Err(format!("a seam allowance is 0 to {WIDEST_ALLOWANCE} m wide"));
+        return Err(words!("a seam allowance is 0 to {most} m wide", most = WIDEST_ALLOWANCE));
     }
     let set = |p: &mut Piece| {
         p.allowance = width;
         p.cut_line.clear();
     };
-    set_all(pattern, ids, "set the seam allowance of", set)
+    set_all(pattern, ids, labels::ALLOWANCE, set)
 }
 
 /// Changes a piece, if it exists, by `set`.
 pub(super) fn change(pattern: &mut Pattern, id: PieceId, set: impl FnOnce(&mut Piece)) {
     if let Some(piece) = pattern.pieces.get_mut(&id) {
         set(Arc::make_mut(piece));
-    }
-}
-
-/// Label of an edit: "move front", "move 3 pieces". Err when one of the pieces does not exist, or none is named.
-pub(super) fn named(pattern: &Pattern, what: &str, ids: &[PieceId]) -> Result<String, String> {
-    for &id in ids {
-        find(pattern, id)?;
-    }
-    match ids {
-        [] => Err("no piece was named".to_owned()),
-        [one] => Ok(format!("{what} {}", find(pattern, *one)?.name)),
-        _ => Ok(format!("{what} {} pieces", ids.len())),
     }
 }
 

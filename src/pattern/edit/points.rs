@@ -5,6 +5,7 @@ use std::sync::Arc;
 
 use glam::DVec2;
 
+use crate::geometry::words::{Words, decimal, words};
 use crate::pattern::edit::lines::{self, Part, previous};
 use crate::pattern::edit::{Change, PointRef, find, symmetric_image};
 use crate::pattern::{AllowanceCorner, Edge, EdgeRef, EdgeShape, Pattern, Piece, curve};
@@ -12,9 +13,9 @@ use crate::pattern::{AllowanceCorner, Edge, EdgeRef, EdgeShape, Pattern, Piece, 
 /// Angle between two tangents up to which they count as smooth, radians.
 const SMOOTH: f64 = 1e-7;
 
-pub(super) fn move_points(pattern: &mut Pattern, moves: &[(PointRef, DVec2)]) -> Result<Change, String> {
+pub(super) fn move_points(pattern: &mut Pattern, moves: &[(PointRef, DVec2)]) -> Result<Change, Words> {
     if moves.is_empty() {
-        return Err("no point was named".to_owned());
+        return Err(words!("no point was named"));
     }
     let mut of_piece: BTreeMap<_, BTreeMap<usize, DVec2>> = BTreeMap::new();
     for (point, to) in moves {
@@ -46,21 +47,21 @@ pub(super) fn move_points(pattern: &mut Pattern, moves: &[(PointRef, DVec2)]) ->
         pattern.pieces.insert(id, Arc::new(new));
     }
     let what =
-        if moves.len() == 1 { "move a point".to_owned() } else { format!("move {} points", moves.len()) };
+        if moves.len() == 1 { words!("move a point") } else { words!("move {n} points", n = moves.len()) };
     Ok(Change { held, ..Change::new(what) })
 }
 
-pub(super) fn set_edge(pattern: &mut Pattern, edge: EdgeRef, shape: EdgeShape) -> Result<Change, String> {
+pub(super) fn set_edge(pattern: &mut Pattern, edge: EdgeRef, shape: EdgeShape) -> Result<Change, Words> {
     let piece = find(pattern, edge.piece)?;
     edge_number(piece, edge.edge)?;
     let (a, b) = piece.edge_ends(edge.edge);
     if let EdgeShape::Arc { radius, .. } = shape
         && radius < a.distance(b) / 2.0 * (1.0 - 1e-9)
     {
-        return Err(format!(
-            "an arc between points {:.1} cm apart has a radius of {:.1} cm at least",
-            a.distance(b) * 100.0,
-            a.distance(b) * 50.0
+        return Err(words!(
+            "an arc between points {apart} cm apart has a radius of {radius} cm at least",
+            apart = decimal(a.distance(b) * 100.0, 1),
+            radius = decimal(a.distance(b) * 50.0, 1)
         ));
     }
     let mut new = Piece::clone(piece);
@@ -83,14 +84,14 @@ pub(super) fn set_edge(pattern: &mut Pattern, edge: EdgeRef, shape: EdgeShape) -
     }
     let held = [edge.edge, new.next_edge(edge.edge)].map(|e| EdgeRef { edge: e, ..edge });
     pattern.pieces.insert(edge.piece, Arc::new(new));
-    Ok(Change { held: held.into(), ..Change::new("bend an edge") })
+    Ok(Change { held: held.into(), ..Change::new(words!("bend an edge")) })
 }
 
-pub(super) fn insert(pattern: &mut Pattern, edge: EdgeRef, at: f64) -> Result<Change, String> {
+pub(super) fn insert(pattern: &mut Pattern, edge: EdgeRef, at: f64) -> Result<Change, Words> {
     let piece = find(pattern, edge.piece)?;
     edge_number(piece, edge.edge)?;
     if !(at > 0.0 && at < 1.0) {
-        return Err("a point on an edge lies between its ends".to_owned());
+        return Err(words!("a point on an edge lies between its ends"));
     }
     let image = symmetric_image(piece, edge.edge);
     // Split the later edge first, so that the number of the earlier one stays valid.
@@ -100,29 +101,32 @@ pub(super) fn insert(pattern: &mut Pattern, edge: EdgeRef, at: f64) -> Result<Ch
     for (number, at) in sites {
         lines::insert_points(pattern, EdgeRef { edge: number, ..edge }, &[at]);
     }
-    Ok(Change::new("add a point"))
+    Ok(Change::new(words!("add a point")))
 }
 
-pub(super) fn delete(pattern: &mut Pattern, point: PointRef) -> Result<Change, String> {
+pub(super) fn delete(pattern: &mut Pattern, point: PointRef) -> Result<Change, Words> {
     let piece = find(pattern, point.piece)?;
     point_number(piece, point.point)?;
     let n = piece.outline.len();
     let mut sites = vec![point.point];
     if piece.symmetric && point.point < n {
         if point.point == 0 || point.point == n / 2 {
-            return Err(format!("this point is the middle of {}: unlink its halves first", piece.name));
+            return Err(words!(
+                "this point is the middle of {name}: unlink its halves first",
+                name = piece.name
+            ));
         }
         sites.push(n - point.point);
     }
     let (k, _) = piece.loop_of(point.point);
     if piece.loop_edges(k).len() < 2 + sites.len() {
-        return Err("a closed line needs two points at least".to_owned());
+        return Err(words!("a closed line needs two points at least"));
     }
     sites.sort_unstable();
     for &site in sites.iter().rev() {
         join(pattern, EdgeRef { piece: point.piece, edge: site });
     }
-    Ok(Change::new("take a point away"))
+    Ok(Change::new(words!("take a point away")))
 }
 
 /// Joins the two edges that meet at the start of `point` into one.
@@ -192,7 +196,7 @@ pub(super) fn as_cubic(a: DVec2, shape: EdgeShape, b: DVec2) -> [DVec2; 2] {
     }
 }
 
-pub(super) fn set_smooth(pattern: &mut Pattern, point: PointRef, smooth: bool) -> Result<Change, String> {
+pub(super) fn set_smooth(pattern: &mut Pattern, point: PointRef, smooth: bool) -> Result<Change, Words> {
     let piece = find(pattern, point.piece)?;
     point_number(piece, point.point)?;
     let mut new = Piece::clone(piece);
@@ -219,7 +223,7 @@ pub(super) fn set_smooth(pattern: &mut Pattern, point: PointRef, smooth: bool) -
         smooth_point(&mut new, site);
     }
     pattern.pieces.insert(point.piece, Arc::new(new));
-    Ok(Change::new(if smooth { "make a point smooth" } else { "make a corner" }))
+    Ok(Change::new(if smooth { words!("make a point smooth") } else { words!("make a corner") }))
 }
 
 /// Sets how the seam allowance goes round a point of an outline.
@@ -227,16 +231,16 @@ pub(super) fn set_corner(
     pattern: &mut Pattern,
     point: PointRef,
     corner: AllowanceCorner,
-) -> Result<Change, String> {
+) -> Result<Change, Words> {
     let piece = find(pattern, point.piece)?;
     point_number(piece, point.point)?;
     let n = piece.outline.len();
     if point.point >= n {
-        return Err("a seam allowance runs round the outline, not round holes".to_owned());
+        return Err(words!("a seam allowance runs round the outline, not round holes"));
     }
     let image = (n - point.point) % n;
     if piece.symmetric && image == point.point && !corner.is_mitre() {
-        return Err("on the fold line of a symmetric piece a corner of the allowance stays mitred".to_owned());
+        return Err(words!("on the fold line of a symmetric piece a corner of the allowance stays mitred"));
     }
     let mut new = Piece::clone(piece);
     new.outline[point.point].corner = corner;
@@ -244,7 +248,7 @@ pub(super) fn set_corner(
         new.outline[image].corner = corner.reversed();
     }
     pattern.pieces.insert(point.piece, Arc::new(new));
-    Ok(Change::new("change a corner of the allowance"))
+    Ok(Change::new(words!("change a corner of the allowance")))
 }
 
 /// Moves every point to its entry of `places`; curves rotate and scale with their chords.
@@ -354,16 +358,16 @@ pub(super) fn shape_mut(piece: &mut Piece, i: usize) -> &mut Edge {
     &mut piece.loop_edges_mut(k)[i - first]
 }
 
-pub(super) fn edge_number(piece: &Piece, edge: usize) -> Result<(), String> {
+pub(super) fn edge_number(piece: &Piece, edge: usize) -> Result<(), Words> {
     if edge < piece.edge_count() {
         return Ok(());
     }
-    Err(format!("{} has no edge {}", piece.name, edge.saturating_add(1)))
+    Err(words!("{name} has no edge {n}", name = piece.name, n = edge.saturating_add(1)))
 }
 
-fn point_number(piece: &Piece, point: usize) -> Result<(), String> {
+fn point_number(piece: &Piece, point: usize) -> Result<(), Words> {
     if point < piece.edge_count() {
         return Ok(());
     }
-    Err(format!("{} has no point {}", piece.name, point.saturating_add(1)))
+    Err(words!("{name} has no point {n}", name = piece.name, n = point.saturating_add(1)))
 }

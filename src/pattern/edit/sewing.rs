@@ -3,6 +3,7 @@
 use std::collections::BTreeSet;
 
 use crate::geometry::ids::SeamId;
+use crate::geometry::words::{Words, words};
 use crate::pattern::edit::mirror::image_seam;
 use crate::pattern::edit::{Change, PatternEdit, find};
 use crate::pattern::{Pattern, Seam, Stretch};
@@ -14,12 +15,12 @@ const SAME_PLACE: f64 = 1e-9;
 /// Range of the length ratio of a seam.
 pub const RATIOS: std::ops::RangeInclusive<f64> = 0.01..=100.0;
 
-pub(super) fn sew(pattern: &mut Pattern, seam: Seam) -> Result<Change, String> {
+pub(super) fn sew(pattern: &mut Pattern, seam: Seam) -> Result<Change, Words> {
     fits(pattern, &seam)?;
     let names: Vec<String> = seam.sides.iter().map(|side| pattern.pieces[&side.piece].name.clone()).collect();
     let held = held(pattern, &seam.sides[0]);
     pattern.add_seam(seam);
-    Ok(Change { held, ..Change::new(format!("sew {} to {}", names[0], names[1])) })
+    Ok(Change { held, ..Change::new(words!("sew {one} to {other}", one = names[0], other = names[1])) })
 }
 
 /// The edit of seams that does the same to the mirror images, on twins and symmetric halves. None where there are none, or
@@ -69,35 +70,41 @@ fn near(a: &Stretch, b: &Stretch) -> bool {
 }
 
 /// Checks that the stretches of a seam exist and are free.
-pub(super) fn fits(pattern: &Pattern, seam: &Seam) -> Result<(), String> {
+pub(super) fn fits(pattern: &Pattern, seam: &Seam) -> Result<(), Words> {
     sound(pattern, seam)?;
     if overlap(pattern, &seam.sides[0], &seam.sides[1]).is_some() {
-        return Err("an edge cannot be sewn to itself".to_owned());
+        return Err(words!("an edge cannot be sewn to itself"));
     }
     for side in seam.sides {
         let others = pattern.seams.values().flat_map(|s| &s.sides);
         if let Some(edge) = others.filter_map(|other| overlap(pattern, &side, other)).next() {
-            return Err(format!("edge {} of {} is sewn already", edge + 1, pattern.pieces[&side.piece].name));
+            return Err(words!(
+                "edge {n} of {name} is sewn already",
+                n = edge + 1,
+                name = pattern.pieces[&side.piece].name
+            ));
         }
     }
     Ok(())
 }
 
 /// Checks that the stretches of a seam exist and that its ratio is valid.
-pub fn sound(pattern: &Pattern, seam: &Seam) -> Result<(), String> {
+pub fn sound(pattern: &Pattern, seam: &Seam) -> Result<(), Words> {
     for side in &seam.sides {
         let piece = find(pattern, side.piece)?;
         if side.edge >= piece.edge_count() {
-            return Err(format!("{} has no edge {}", piece.name, side.edge.saturating_add(1)));
+            return Err(words!("{name} has no edge {n}", name = piece.name, n = side.edge.saturating_add(1)));
         }
         if side.parts(piece).is_none() {
-            return Err(format!("there is no such stretch on {}", piece.name));
+            return Err(words!("there is no such stretch on {name}", name = piece.name));
         }
     }
     match seam.ratio {
-        Some(ratio) if !RATIOS.contains(&ratio) => {
-            Err(format!("one side of a seam is {} to {} times the other", RATIOS.start(), RATIOS.end()))
-        }
+        Some(ratio) if !RATIOS.contains(&ratio) => Err(words!(
+            "one side of a seam is {least} to {most} times the other",
+            least = RATIOS.start(),
+            most = RATIOS.end()
+        )),
         _ => Ok(()),
     }
 }
@@ -124,27 +131,27 @@ fn held(pattern: &Pattern, side: &Stretch) -> BTreeSet<crate::pattern::EdgeRef> 
     points.map(|edge| crate::pattern::EdgeRef { piece: side.piece, edge }).collect()
 }
 
-pub(super) fn unpick(pattern: &mut Pattern, seams: &[SeamId]) -> Result<Change, String> {
+pub(super) fn unpick(pattern: &mut Pattern, seams: &[SeamId]) -> Result<Change, Words> {
     for seam in seams {
-        pattern.seams.remove(seam).ok_or_else(|| format!("there is no {seam}"))?;
+        pattern.seams.remove(seam).ok_or_else(|| words!("there is no {what}", what = seam))?;
     }
     Ok(Change::new(match seams {
-        [one] => format!("unpick {one}"),
-        _ => format!("unpick {} seams", seams.len()),
+        [one] => words!("unpick seam {n}", n = one.0),
+        _ => words!("unpick {n} seams", n = seams.len()),
     }))
 }
 
-pub(super) fn turn(pattern: &mut Pattern, id: SeamId) -> Result<Change, String> {
-    let seam = pattern.seams.get_mut(&id).ok_or_else(|| format!("there is no {id}"))?;
+pub(super) fn turn(pattern: &mut Pattern, id: SeamId) -> Result<Change, Words> {
+    let seam = pattern.seams.get_mut(&id).ok_or_else(|| words!("there is no {what}", what = id))?;
     seam.same_direction = !seam.same_direction;
-    Ok(Change::new(format!("turn {id} round")))
+    Ok(Change::new(words!("turn seam {n} round", n = id.0)))
 }
 
-pub(super) fn set_ratio(pattern: &mut Pattern, id: SeamId, ratio: Option<f64>) -> Result<Change, String> {
-    let seam = *pattern.seams.get(&id).ok_or_else(|| format!("there is no {id}"))?;
+pub(super) fn set_ratio(pattern: &mut Pattern, id: SeamId, ratio: Option<f64>) -> Result<Change, Words> {
+    let seam = *pattern.seams.get(&id).ok_or_else(|| words!("there is no {what}", what = id))?;
     let new = Seam { ratio, ..seam };
     sound(pattern, &new)?;
     let held = held(pattern, &seam.sides[0]);
     pattern.seams.insert(id, new);
-    Ok(Change { held, ..Change::new(format!("change the gather of {id}")) })
+    Ok(Change { held, ..Change::new(words!("change the gather of seam {n}", n = id.0)) })
 }

@@ -4,6 +4,7 @@ use glam::{DAffine2, DMat2, DVec2};
 use kurbo::{Line, ParamCurveArclen, Point};
 
 use crate::geometry::ids::PieceId;
+use crate::geometry::words::{Words, words};
 use crate::pattern::edit::lines::{self, LineMap, Part};
 use crate::pattern::edit::mirror::{self, image_line, image_placement, take_image};
 use crate::pattern::edit::pieces::{change, fresh_name, map_piece};
@@ -15,10 +16,10 @@ use crate::pattern::{
 /// Distance within which a point is snapped to the axis of symmetry, metres.
 const ON_AXIS: f64 = 1e-6;
 
-pub(super) fn add_twin(pattern: &mut Pattern, id: PieceId, offset: DVec2) -> Result<Change, String> {
+pub(super) fn add_twin(pattern: &mut Pattern, id: PieceId, offset: DVec2) -> Result<Change, Words> {
     let piece = find(pattern, id)?.clone();
     if piece.twin.is_some() {
-        return Err(format!("{} has a twin: unlink it first", piece.name));
+        return Err(words!("{name} has a twin: unlink it first", name = piece.name));
     }
     let mut twin = Piece { twin: Some(id), ..Piece::clone(&piece) };
     take_image(&mut twin, &piece);
@@ -40,7 +41,7 @@ pub(super) fn add_twin(pattern: &mut Pattern, id: PieceId, offset: DVec2) -> Res
             pattern.add_seam(image);
         }
     }
-    Ok(Change::new(format!("mirror {}", piece.name)))
+    Ok(Change::new(words!("mirror {name}", name = piece.name)))
 }
 
 /// The name of the piece on the other side: "left sleeve" for "right sleeve".
@@ -53,13 +54,13 @@ fn other_side(name: &str) -> Option<String> {
     })
 }
 
-pub(super) fn unlink(pattern: &mut Pattern, id: PieceId) -> Result<Change, String> {
+pub(super) fn unlink(pattern: &mut Pattern, id: PieceId) -> Result<Change, Words> {
     let piece = find(pattern, id)?.clone();
     if piece.twin.is_none() && !piece.symmetric {
-        return Err(format!("{} is linked to nothing", piece.name));
+        return Err(words!("{name} is linked to nothing", name = piece.name));
     }
     loosen(pattern, id);
-    Ok(Change::new(format!("unlink {}", piece.name)))
+    Ok(Change::new(words!("unlink {name}", name = piece.name)))
 }
 
 /// Removes the twin of a piece and its own symmetry.
@@ -73,9 +74,10 @@ pub(super) fn loosen(pattern: &mut Pattern, id: PieceId) {
     });
 }
 
-pub(super) fn make_symmetric(pattern: &mut Pattern, id: PieceId, axis: [DVec2; 2]) -> Result<Change, String> {
+pub(super) fn make_symmetric(pattern: &mut Pattern, id: PieceId, axis: [DVec2; 2]) -> Result<Change, Words> {
     let name = find(pattern, id)?.name.clone();
-    let along = (axis[1] - axis[0]).try_normalize().ok_or("the middle line needs two points")?;
+    let along =
+        (axis[1] - axis[0]).try_normalize().ok_or_else(|| words!("the middle line needs two points"))?;
     loosen(pattern, id);
     // The part left of the line is mapped to x < 0.
     let map = turn(pattern, id, axis[0], along);
@@ -86,11 +88,11 @@ pub(super) fn make_symmetric(pattern: &mut Pattern, id: PieceId, axis: [DVec2; 2
     let left: Vec<bool> = (0..n).map(is_left).collect();
     let starts: Vec<usize> = (0..n).filter(|&i| left[i] && !left[(i + n - 1) % n]).collect();
     let [start] = starts[..] else {
-        return Err(format!("the line must cut {name} into one left and one right part"));
+        return Err(words!("the line must cut {name} into one left and one right part", name));
     };
     let half = (0..n).take_while(|k| left[(start + k) % n]).count();
     if half == n {
-        return Err(format!("the line does not cut {name}"));
+        return Err(words!("the line does not cut {name}", name));
     }
     let mut map_old: LineMap = vec![Vec::new(); n];
     // Where the right half is drawn like the left one, its seams stay.
@@ -113,18 +115,18 @@ pub(super) fn make_symmetric(pattern: &mut Pattern, id: PieceId, axis: [DVec2; 2
     });
     Ok(Change {
         carried: vec![Carried { from: id, to: id, map, inside: None }],
-        ..Change::new(format!("make {name} symmetric"))
+        ..Change::new(words!("make {name} symmetric", name))
     })
 }
 
-pub(super) fn unfold(pattern: &mut Pattern, edge: EdgeRef) -> Result<Change, String> {
+pub(super) fn unfold(pattern: &mut Pattern, edge: EdgeRef) -> Result<Change, Words> {
     let id = edge.piece;
     let piece = find(pattern, id)?.clone();
     if edge.edge >= piece.outline.len() || !matches!(piece.outline[edge.edge].shape, EdgeShape::Line) {
-        return Err("a piece is opened out along a straight edge of its outline".to_owned());
+        return Err(words!("a piece is opened out along a straight edge of its outline"));
     }
     if piece.outline.len() < 3 {
-        return Err(format!("{} has too few edges to be opened out", piece.name));
+        return Err(words!("{name} has too few edges to be opened out", name = piece.name));
     }
     loosen(pattern, id);
     let (a, b) = piece.edge_ends(edge.edge);
@@ -158,14 +160,14 @@ pub(super) fn unfold(pattern: &mut Pattern, edge: EdgeRef) -> Result<Change, Str
     });
     Ok(Change {
         carried: vec![Carried { from: id, to: id, map, inside: None }],
-        ..Change::new(format!("open {} out", piece.name))
+        ..Change::new(words!("open {name} out", name = piece.name))
     })
 }
 
-pub(super) fn fold(pattern: &mut Pattern, id: PieceId) -> Result<Change, String> {
+pub(super) fn fold(pattern: &mut Pattern, id: PieceId) -> Result<Change, Words> {
     let piece = find(pattern, id)?.clone();
     if !piece.symmetric {
-        return Err(format!("{} is not symmetric", piece.name));
+        return Err(words!("{name} is not symmetric", name = piece.name));
     }
     loosen(pattern, id);
     let n = piece.outline.len();
@@ -185,7 +187,7 @@ pub(super) fn fold(pattern: &mut Pattern, id: PieceId) -> Result<Change, String>
         p.lines.retain(|line| line.edges.iter().all(|e| kept(e.start)) && kept(line.end));
         p.grainline = p.grainline.filter(|ends| ends.iter().all(|&p| kept(p)));
     });
-    Ok(Change::new(format!("fold {}", piece.name)))
+    Ok(Change::new(words!("fold {name}", name = piece.name)))
 }
 
 /// A closed outline from an open half that runs from axis to axis (its end is the last edge's start) and the mirror

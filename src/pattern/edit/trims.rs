@@ -3,9 +3,10 @@
 use serde::{Deserialize, Serialize};
 
 use crate::geometry::ids::PieceId;
+use crate::geometry::words::{Words, words};
 use crate::pattern::edit::pieces::change as change_piece;
 use crate::pattern::edit::{Change, find, symmetric_image};
-use crate::pattern::{EdgeRef, Pattern, Piece, Trims};
+use crate::pattern::{EdgeRef, Pattern, Piece, Trims, Wrinkle};
 
 /// A line of a piece that can have trims.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
@@ -44,19 +45,21 @@ impl TrimLine {
 pub(super) fn set(
     pattern: &mut Pattern,
     lines: &[TrimLine],
-    label: &str,
+    label: Words,
     change: impl Fn(&mut Trims),
-) -> Result<Change, String> {
+) -> Result<Change, Words> {
     if lines.is_empty() {
-        return Err(format!("choose an edge or a line first to {label}"));
+        return Err(words!("choose an edge or a line first to {label}", label));
     }
     for &line in lines {
         let piece = find(pattern, line.piece())?;
         if line.of(piece).is_none() {
             return Err(match line {
-                TrimLine::Edge(edge) => format!("{} has no edge {}", piece.name, edge.edge.saturating_add(1)),
+                TrimLine::Edge(edge) => {
+                    words!("{name} has no edge {n}", name = piece.name, n = edge.edge.saturating_add(1))
+                }
                 TrimLine::Line { line, .. } => {
-                    format!("{} has no line {}", piece.name, line.saturating_add(1))
+                    words!("{name} has no line {n}", name = piece.name, n = line.saturating_add(1))
                 }
             });
         }
@@ -75,13 +78,26 @@ pub(super) fn set(
     Ok(Change::new(label))
 }
 
+/// Gives internal lines a wrinkle, or takes it away. Edges cannot have one: half of it would be on other pieces.
+pub(super) fn set_wrinkle(
+    pattern: &mut Pattern,
+    lines: &[TrimLine],
+    wrinkle: Option<Wrinkle>,
+) -> Result<Change, Words> {
+    if lines.iter().any(|line| matches!(line, TrimLine::Edge(_))) {
+        return Err(words!("a wrinkle goes along a line inside a piece, not along an edge"));
+    }
+    let what = if wrinkle.is_some() { words!("set a wrinkle") } else { words!("smooth a wrinkle out") };
+    set(pattern, lines, what, |trims| trims.wrinkle = wrinkle)
+}
+
 #[cfg(test)]
 mod tests {
     use glam::DVec2;
 
     use super::*;
-    use crate::pattern::Piping;
-    use crate::pattern::edit::{PatternEdit, apply};
+    use crate::pattern::edit::{LinePoint, PatternEdit, apply};
+    use crate::pattern::{Edge, InternalLine, Piping};
 
     fn kite(symmetric: bool) -> Pattern {
         // Its points 0 and 2 lie on the line of symmetry.
@@ -125,6 +141,43 @@ mod tests {
         assert_eq!(refused(Vec::new()), "choose an edge or a line first to sew piping in");
         let beyond = EdgeRef { piece: PieceId(1), edge: 4 };
         assert_eq!(refused(vec![TrimLine::Edge(beyond)]), "kite has no edge 5");
+        assert_eq!(refused(vec![TrimLine::Line { piece: PieceId(1), line: 0 }]), "kite has no line 1");
+    }
+
+    #[test]
+    fn a_wrinkle_is_mirrored_to_the_twin_and_is_on_both_parts_of_a_split_line() {
+        let piece = PieceId(1);
+        let edges = vec![Edge { start: DVec2::new(-0.05, 0.1), ..Edge::default() }];
+        let line = InternalLine { edges, end: DVec2::new(0.05, 0.3), ..InternalLine::default() };
+        let lined = done(&kite(false), &PatternEdit::AddLine { piece, line });
+        let twins = done(&lined, &PatternEdit::AddTwin { piece, offset: DVec2::X });
+        let twin = twins.pieces[&piece].twin.expect("a twin");
+        let lines = vec![TrimLine::Line { piece, line: 0 }];
+        let set = |wrinkle| PatternEdit::SetWrinkle { lines: lines.clone(), wrinkle };
+        let with = done(&twins, &set(Some(Wrinkle::USUAL)));
+        let wrinkles = |pattern: &Pattern, id: PieceId| -> Vec<Option<Wrinkle>> {
+            pattern.pieces[&id].lines[0].edges.iter().map(|edge| edge.trims.wrinkle).collect()
+        };
+        for id in [piece, twin] {
+            assert_eq!(wrinkles(&with, id), [Some(Wrinkle::USUAL)]);
+        }
+        let edge = LinePoint { piece, line: 0, point: 0 };
+        let more = done(&with, &PatternEdit::InsertLinePoint { edge, at: 0.4 });
+        for id in [piece, twin] {
+            assert_eq!(wrinkles(&more, id), [Some(Wrinkle::USUAL); 2]);
+        }
+        assert_eq!(done(&with, &set(None)), twins);
+    }
+
+    #[test]
+    fn a_wrinkle_needs_a_line_inside_a_piece() {
+        let refused = |lines: Vec<TrimLine>| {
+            let edit = PatternEdit::SetWrinkle { lines, wrinkle: Some(Wrinkle::USUAL) };
+            apply(&kite(false), &edit).expect_err("refused")
+        };
+        assert_eq!(refused(Vec::new()), "choose an edge or a line first to set a wrinkle");
+        let edge = TrimLine::Edge(EdgeRef { piece: PieceId(1), edge: 0 });
+        assert_eq!(refused(vec![edge]), "a wrinkle goes along a line inside a piece, not along an edge");
         assert_eq!(refused(vec![TrimLine::Line { piece: PieceId(1), line: 0 }]), "kite has no line 1");
     }
 }

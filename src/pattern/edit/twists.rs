@@ -8,6 +8,7 @@ use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use crate::geometry::ids::{PieceId, SeamId};
+use crate::geometry::words::{Words, words};
 use crate::pattern::edit::symmetry::loosen;
 use crate::pattern::edit::{Change, mirror};
 use crate::pattern::{Notch, Pattern, Piece, Seam, Stretch, curve};
@@ -108,10 +109,10 @@ fn improved(mut over: BTreeMap<PieceId, bool>, seams: &[Measured<'_>]) -> BTreeM
     over
 }
 
-pub(super) fn untwist_all(pattern: &mut Pattern) -> Result<Change, String> {
+pub(super) fn untwist_all(pattern: &mut Pattern) -> Result<Change, Words> {
     let found = twists(pattern);
     if found == Twists::default() {
-        return Err("no seam is twisted".to_owned());
+        return Err(words!("no seam is twisted"));
     }
     for id in &found.seams {
         if let Some(seam) = pattern.seams.get_mut(id) {
@@ -121,7 +122,7 @@ pub(super) fn untwist_all(pattern: &mut Pattern) -> Result<Change, String> {
     for &id in &found.pieces {
         turn_over(pattern, id);
     }
-    Ok(Change::new("untwist the seams"))
+    Ok(Change::new(words!("untwist the seams")))
 }
 
 /// Turns a piece over: its back becomes its front. Seams still join the same points.

@@ -7,6 +7,7 @@ use glam::DVec2;
 
 use crate::geometry::ids::PieceId;
 use crate::geometry::polygon::{first_crossing, sides, signed_area};
+use crate::geometry::words::{Words, words};
 use crate::pattern::edit::grading::{put, rules_of, tangents_at};
 use crate::pattern::grading::field::Field;
 use crate::pattern::grading::rule::GradeRule;
@@ -42,7 +43,7 @@ pub struct Graded {
 ///
 /// # Errors
 /// The pattern has no such size, in words.
-pub fn graded(pattern: &Pattern, size: &str) -> Result<Graded, String> {
+pub fn graded(pattern: &Pattern, size: &str) -> Result<Graded, Words> {
     let number = pattern.sizes.number(size)?;
     let mut new = pattern.clone();
     let mut moved = BTreeMap::new();
@@ -169,15 +170,16 @@ fn graded_closed(edges: &[Edge], field: &Field) -> Vec<Edge> {
 
 /// What grading made of `piece` that cannot be cut, in words.
 fn problems(piece: &Piece, graded: &Piece, size: &str) -> Vec<Problem> {
-    let at = |point: usize| format!("{}, point {}, size {size}", piece.name, point + 1);
+    let at =
+        |point: usize| words!("{piece}, point {n}, size {size}", piece = piece.name, n = point + 1, size);
     let mut problems: Vec<Problem> = (0..graded.edge_count())
         .filter(|&i| graded.edge_length(i) < SHORTEST && piece.edge_length(i) >= SHORTEST)
         .map(|i| Problem {
             kind: ProblemKind::ZeroLength,
             place: at(i),
-            words: format!(
-                "the edge to point {} vanishes: change the rules of its ends",
-                piece.next_edge(i) + 1
+            words: words!(
+                "the edge to point {n} vanishes: change the rules of its ends",
+                n = piece.next_edge(i) + 1
             ),
         })
         .collect();
@@ -187,10 +189,10 @@ fn problems(piece: &Piece, graded: &Piece, size: &str) -> Vec<Problem> {
         problems.push(Problem {
             kind: ProblemKind::SelfCrossing,
             place: at(i),
-            words: format!(
-                "the outline crosses itself: the edge from point {} meets that from point {}",
-                i + 1,
-                j + 1
+            words: words!(
+                "the outline crosses itself: the edge from point {one} meets that from point {other}",
+                one = i + 1,
+                other = j + 1
             ),
         });
     }
@@ -199,7 +201,7 @@ fn problems(piece: &Piece, graded: &Piece, size: &str) -> Vec<Problem> {
         problems.push(Problem {
             kind: ProblemKind::SelfCrossing,
             place: at(0),
-            words: "the piece is turned inside out: its rules move points past each other".to_owned(),
+            words: words!("the piece is turned inside out: its rules move points past each other"),
         });
     }
     problems

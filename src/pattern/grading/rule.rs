@@ -4,6 +4,7 @@ use glam::DVec2;
 use serde::{Deserialize, Serialize};
 
 use crate::geometry::ids::PieceId;
+use crate::geometry::words::{Words, words};
 
 /// Largest displacement of a rule, metres.
 pub const FARTHEST: f64 = 1.0;
@@ -99,14 +100,21 @@ impl GradeRule {
     }
 
     /// What is wrong with the rule in a run of `count` sizes with this `base`, in words.
-    pub fn problem(&self, count: usize, base: usize) -> Option<String> {
+    pub fn problem(&self, count: usize, base: usize) -> Option<Words> {
         if self.0.len() != count {
-            return Some(format!("a rule has {} displacements, but there are {count} sizes", self.0.len()));
+            return Some(words!(
+                "a rule has {n} displacements, but there are {count} sizes",
+                n = self.0.len(),
+                count
+            ));
         }
         if self.0.iter().any(|by| !by.is_finite() || by.abs().max_element() > FARTHEST) {
-            return Some(format!("a rule moves its point by no number of metres within {FARTHEST}"));
+            return Some(words!(
+                "a rule moves its point by no number of metres within {most}",
+                most = FARTHEST
+            ));
         }
-        (self.at(base) != DVec2::ZERO).then(|| "a rule moves its point in the base size".to_owned())
+        (self.at(base) != DVec2::ZERO).then(|| words!("a rule moves its point in the base size"))
     }
 }
 

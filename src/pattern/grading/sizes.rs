@@ -2,6 +2,8 @@
 
 use serde::{Deserialize, Serialize};
 
+use crate::geometry::words::{Words, within_quotes, words};
+
 /// Most sizes of a run.
 pub const MOST_SIZES: usize = 40;
 /// Most characters of a size's name.
@@ -44,30 +46,38 @@ impl SizeRun {
     ///
     /// # Errors
     /// There is no such size, in words that list those there are.
-    pub fn number(&self, name: &str) -> Result<usize, String> {
+    pub fn number(&self, name: &str) -> Result<usize, Words> {
         let found = self.names.iter().position(|own| own == name.trim());
         found.ok_or_else(|| match self.is_empty() {
-            true => "the pattern has no sizes: choose a size run first".to_owned(),
+            true => words!("the pattern has no sizes: choose a size run first"),
             false => {
-                format!("the pattern has no size {:?}: it has {}", name.trim(), self.names.join(", "))
+                words!(
+                    "the pattern has no size \"{name}\": it has {names}",
+                    name = within_quotes(name.trim()),
+                    names = self.names.join(", ")
+                )
             }
         })
     }
 
     /// What is wrong with the run, in words.
-    pub fn problem(&self) -> Option<String> {
+    pub fn problem(&self) -> Option<Words> {
         let Self { names, base } = self;
         if names.is_empty() {
-            return (*base != 0).then(|| "there are no sizes, but a base size".to_owned());
+            return (*base != 0).then(|| words!("there are no sizes, but a base size"));
         }
         if names.len() > MOST_SIZES {
-            return Some(format!("a pattern may have {MOST_SIZES} sizes, this has {}", names.len()));
+            return Some(words!(
+                "a pattern may have {most} sizes, this has {count}",
+                most = MOST_SIZES,
+                count = names.len()
+            ));
         }
         if *base >= names.len() {
-            return Some(format!(
-                "size {} is to be the base of {} sizes",
-                base.saturating_add(1),
-                names.len()
+            return Some(words!(
+                "size {n} is to be the base of {count} sizes",
+                n = base.saturating_add(1),
+                count = names.len()
             ));
         }
         names.iter().enumerate().find_map(|(i, name)| {
@@ -76,12 +86,14 @@ impl SizeRun {
                 && name.chars().count() <= LONGEST_NAME
                 && !name.chars().any(|c| c.is_control() || c == ',');
             if !is_name {
-                return Some(format!(
-                    "size {} is called {name:?}: a name has 1 to {LONGEST_NAME} characters, none of them a comma",
-                    i + 1
+                return Some(words!(
+                    "size {n} is called \"{name}\": a name has 1 to {most} characters, none of them a comma",
+                    n = i + 1,
+                    name = within_quotes(name),
+                    most = LONGEST_NAME
                 ));
             }
-            names[..i].contains(name).then(|| format!("there are two sizes {name}"))
+            names[..i].contains(name).then(|| words!("there are two sizes {name}", name))
         })
     }
 }

@@ -6,6 +6,7 @@ use std::sync::Arc;
 use glam::{DAffine2, DVec2};
 
 use crate::geometry::ids::{GraphicId, ImageId, PieceId};
+use crate::geometry::words::{Words, words};
 use crate::session::artwork::{Artwork, Graphic, ImageFile};
 use crate::session::command::Rejection;
 use crate::session::document::Document;
@@ -13,25 +14,25 @@ use crate::session::edit::Edit;
 
 /// Adds an image, which must be readable.
 pub fn add_image(mut document: Document, file: &Arc<ImageFile>) -> Result<Edit, Rejection> {
-    file.picture().map_err(|why| Rejection(format!("{}: {why}", file.name)))?;
+    file.picture().map_err(|why| Rejection(words!("{name}: {why}", name = file.name, why)))?;
     let artwork = Arc::make_mut(&mut document.artwork);
     let id = ImageId(artwork.fresh());
     artwork.images.insert(id, Arc::clone(file));
-    checked(document, format!("take {}", file.name))
+    checked(document, words!("take {name}", name = file.name))
 }
 
 /// Deletes an image with its graphics; fabrics lose it as their surface.
 pub fn delete_image(mut document: Document, image: ImageId) -> Result<Edit, Rejection> {
     let artwork = Arc::make_mut(&mut document.artwork);
     let Some(file) = artwork.images.remove(&image) else {
-        return Err(Rejection(format!("there is no {image}")));
+        return Err(Rejection(words!("there is no {what}", what = image)));
     };
     artwork.graphics.retain(|_, graphic| graphic.image != image);
     document.dyes.forget(image);
     if document.colourways.iter().any(|colourway| colourway.dyes.images().any(|other| other == image)) {
         Arc::make_mut(&mut document.colourways).iter_mut().for_each(|colourway| colourway.dyes.forget(image));
     }
-    checked(document, format!("delete {}", file.name))
+    checked(document, words!("delete {name}", name = file.name))
 }
 
 /// Adds a graphic.
@@ -39,25 +40,26 @@ pub fn add_graphic(mut document: Document, graphic: &Graphic) -> Result<Edit, Re
     let artwork = Arc::make_mut(&mut document.artwork);
     let id = GraphicId(artwork.fresh());
     artwork.graphics.insert(id, *graphic);
-    checked(document, "add a graphic")
+    checked(document, words!("add a graphic"))
 }
 
 /// Replaces a graphic.
 pub fn set_graphic(mut document: Document, id: GraphicId, graphic: &Graphic) -> Result<Edit, Rejection> {
     let artwork = Arc::make_mut(&mut document.artwork);
-    let place = artwork.graphics.get_mut(&id).ok_or_else(|| Rejection(format!("there is no {id}")))?;
+    let place =
+        artwork.graphics.get_mut(&id).ok_or_else(|| Rejection(words!("there is no {what}", what = id)))?;
     *place = *graphic;
-    checked(document, "change the graphic")
+    checked(document, words!("change the graphic"))
 }
 
 /// Deletes a graphic.
 pub fn delete_graphic(mut document: Document, id: GraphicId) -> Result<Edit, Rejection> {
     let artwork = Arc::make_mut(&mut document.artwork);
-    artwork.graphics.remove(&id).ok_or_else(|| Rejection(format!("there is no {id}")))?;
-    checked(document, "delete the graphic")
+    artwork.graphics.remove(&id).ok_or_else(|| Rejection(words!("there is no {what}", what = id)))?;
+    checked(document, words!("delete the graphic"))
 }
 
-fn checked(document: Document, label: impl Into<String>) -> Result<Edit, Rejection> {
+fn checked(document: Document, label: Words) -> Result<Edit, Rejection> {
     match problem(&document) {
         None => Ok(Edit::new(label, document)),
         Some(words) => Err(Rejection(words)),
@@ -65,11 +67,11 @@ fn checked(document: Document, label: impl Into<String>) -> Result<Edit, Rejecti
 }
 
 /// What is wrong with the images of `document`, in words.
-pub fn problem(document: &Document) -> Option<String> {
+pub fn problem(document: &Document) -> Option<Words> {
     let Document { artwork, pattern, dyes, colourways, .. } = document;
     let dyes = std::iter::once(dyes).chain(colourways.iter().map(|colourway| &colourway.dyes));
     let missing = dyes.flat_map(|dyes| dyes.images()).find(|image| !artwork.images.contains_key(image));
-    let missing = missing.map(|image| format!("the {image} of a fabric is not there"));
+    let missing = missing.map(|image| words!("the {image} of a fabric is not there", image));
     missing.or_else(|| artwork.problem(|piece| pattern.pieces.contains_key(&piece)))
 }
 

@@ -5,6 +5,7 @@ use std::sync::Arc;
 use crate::body::mannequin::Measurements;
 use crate::contact::Bone;
 use crate::geometry::mesh::TriMesh;
+use crate::geometry::words::words;
 use crate::pattern::Problem;
 use crate::session::animations::{Animations, Moment};
 use crate::session::body::{Body, BodyCache};
@@ -23,7 +24,7 @@ pub fn set(
 ) -> Result<Edit, Rejection> {
     checks::body(body)?;
     if document.body == *body {
-        return Err(Rejection::new("that is the body already"));
+        return Err(Rejection(words!("that is the body already")));
     }
     let to = bodies.body(body)?;
     if let Some(animations) = animations {
@@ -32,7 +33,7 @@ pub fn set(
     document.drop_pins();
     let problems = replace(&mut document, body, &to, bodies);
     document.animations = animations.cloned();
-    Ok(Edit { problems, ..Edit::new("change the body", document).with(ClothChange::Clear) })
+    Ok(Edit { problems, ..Edit::new(words!("change the body"), document).with(ClothChange::Clear) })
 }
 
 /// Changes the measurements of the mannequin in its present pose; the cloth follows.
@@ -42,16 +43,16 @@ pub fn resize(
     bodies: &mut BodyCache,
 ) -> Result<Edit, Rejection> {
     let pose = document.body.pose();
-    let pose = pose.ok_or_else(|| Rejection::new("only the mannequin is built to measurements"))?;
+    let pose = pose.ok_or_else(|| Rejection(words!("only the mannequin is built to measurements")))?;
     let built = BodyChoice::Mannequin(measurements);
     let body = built.posed(pose).unwrap_or(built);
     checks::body(&body)?;
     if document.body == body {
-        return Err(Rejection::new("that is its size already"));
+        return Err(Rejection(words!("that is its size already")));
     }
     let to = bodies.body(&body)?;
     let problems = replace(&mut document, &body, &to, bodies);
-    Ok(Edit { problems, ..Edit::new("change the size", document).with(ClothChange::Resize) })
+    Ok(Edit { problems, ..Edit::new(words!("change the size"), document).with(ClothChange::Resize) })
 }
 
 /// Replaces the document's body by `body`, which is `to`. Returns the strokes that were lost.
@@ -86,7 +87,7 @@ pub fn repose(
     document.body = body.clone();
     Ok(Edit {
         problems,
-        ..Edit::new("change the pose", document).with(ClothChange::Repose { settle, draft })
+        ..Edit::new(words!("change the pose"), document).with(ClothChange::Repose { settle, draft })
     })
 }
 
@@ -98,13 +99,16 @@ fn same_triangles((to, other): (&TriMesh, &str), (from, own): (&TriMesh, &str)) 
     }
     let (is, was) = (counts(to), counts(from));
     let words = match is == was {
-        true => "its triangles join other vertices".to_owned(),
-        false => format!(
-            "it has {} vertices and {} triangles, the dressed one {} and {}",
-            is.0, is.1, was.0, was.1
+        true => words!("its triangles join other vertices"),
+        false => words!(
+            "it has {vertices} vertices and {triangles} triangles, the dressed one {own_vertices} and {own_triangles}",
+            vertices = is.0,
+            triangles = is.1,
+            own_vertices = was.0,
+            own_triangles = was.1
         ),
     };
-    Err(Rejection(format!("{other} is not {own} in another pose: {words}")))
+    Err(Rejection(words!("{other} is not {own} in another pose: {words}", other, own, words)))
 }
 
 /// Sets the target pose.
@@ -113,7 +117,7 @@ pub fn aim(mut document: Document, body: &BodyChoice, bodies: &mut BodyCache) ->
     let (from, to) = (bodies.body(&document.body)?, bodies.body(body)?);
     same_triangles((&to.surface.mesh, body.name()), (&from.surface.mesh, document.body.name()))?;
     document.aim = Some(Arc::new(Aim { from: document.body.clone(), to: body.clone() }));
-    Ok(Edit::new("choose a pose", document))
+    Ok(Edit::new(words!("choose a pose"), document))
 }
 
 /// Moves the body to `share` of the way to the target pose; the cloth follows.
@@ -124,9 +128,9 @@ pub fn towards(
     bodies: &mut BodyCache,
 ) -> Result<Edit, Rejection> {
     if !(0.0..=1.0).contains(&share) {
-        return Err(Rejection(format!("a share of the way is from 0 to 1, not {share}")));
+        return Err(Rejection(words!("a share of the way is from 0 to 1, not {share}", share)));
     }
-    let aim = document.aim.clone().ok_or_else(|| Rejection::new("no pose from a file was chosen"))?;
+    let aim = document.aim.clone().ok_or_else(|| Rejection(words!("no pose from a file was chosen")))?;
     let body = bodies.between(&aim, share)?;
     repose(document, &body, [false, draft], bodies)
 }
@@ -140,7 +144,7 @@ pub fn take_animations(
     let own = bodies.surface(&document.body)?;
     same_triangles((animations.mesh(), animations.name()), (&own.mesh, document.body.name()))?;
     (document.animations, document.moment) = (Some(Arc::clone(animations)), None);
-    Ok(Edit::new("take animations", document))
+    Ok(Edit::new(words!("take animations"), document))
 }
 
 /// Moves the body to a moment of its animations, or to rest; the cloth follows.
@@ -151,7 +155,7 @@ pub fn animate(
     bodies: &mut BodyCache,
 ) -> Result<Edit, Rejection> {
     let animations = document.animations.as_ref();
-    let animations = animations.ok_or_else(|| Rejection::new("the body has no animations"))?;
+    let animations = animations.ok_or_else(|| Rejection(words!("the body has no animations")))?;
     let body = animations.body(document.body.name(), at).map_err(Rejection)?;
     let mut edit = repose(document, &body, [false, draft], bodies)?;
     edit.document.moment = at;
@@ -162,5 +166,5 @@ pub fn animate(
 pub fn set_bones(mut document: Document, bones: Option<&[Bone]>) -> Result<Edit, Rejection> {
     bones.map_or(Ok(()), checks::bones)?;
     document.bones = bones.map(|bones| Arc::new(bones.to_vec()));
-    Ok(Edit::new("bones", document))
+    Ok(Edit::new(words!("bones"), document))
 }

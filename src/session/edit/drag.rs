@@ -6,6 +6,7 @@ use glam::DVec2;
 
 use crate::drag::{DragMode, Ray};
 use crate::geometry::ids::{PieceId, PinId};
+use crate::geometry::words::words;
 use crate::session::command::Rejection;
 use crate::session::document::{Document, Pin};
 use crate::session::edit::{ClothChange, Edit, checks};
@@ -18,15 +19,15 @@ pub fn add_pin(mut document: Document, piece: PieceId, at: DVec2) -> Result<Edit
     let place = ClothPlace { piece, at };
     checks::cloth_place(&document.pattern, place)?;
     if document.pins.len() >= MOST_PINS {
-        return Err(Rejection(format!("a garment may have {MOST_PINS} pins")));
+        return Err(Rejection(words!("a garment may have {most} pins", most = MOST_PINS)));
     }
     if document.pins.iter().any(|pin| pin.place == place) {
-        return Err(Rejection::new("there is a pin already"));
+        return Err(Rejection(words!("there is a pin already")));
     }
     document.last_pin += 1;
     let pin = Pin { id: PinId(document.last_pin), place, locked: false };
     Arc::make_mut(&mut document.pins).push(pin);
-    Ok(Edit::new("pin", document).with(ClothChange::SetPins))
+    Ok(Edit::new(words!("pin"), document).with(ClothChange::SetPins))
 }
 
 pub fn delete_pin(document: Document, pin: PinId) -> Result<Edit, Rejection> {
@@ -38,9 +39,9 @@ pub fn delete_pins(mut document: Document, pins: &[PinId]) -> Result<Edit, Rejec
         loose(&document, pin)?;
     }
     let label = match pins {
-        [] => return Err(Rejection::new("no pin is named")),
-        [_] => "pull a pin out".to_owned(),
-        _ => format!("pull {} pins out", pins.len()),
+        [] => return Err(Rejection(words!("no pin is named"))),
+        [_] => words!("pull a pin out"),
+        _ => words!("pull {n} pins out", n = pins.len()),
     };
     Arc::make_mut(&mut document.pins).retain(|pin| !pins.contains(&pin.id));
     Ok(Edit::new(label, document).with(ClothChange::SetPins))
@@ -48,13 +49,13 @@ pub fn delete_pins(mut document: Document, pins: &[PinId]) -> Result<Edit, Rejec
 
 pub fn clear_pins(mut document: Document) -> Result<Edit, Rejection> {
     if document.pins.is_empty() {
-        return Err(Rejection::new("there are no pins"));
+        return Err(Rejection(words!("there are no pins")));
     }
     if document.pins.iter().all(|pin| pin.locked) {
-        return Err(Rejection::new("all pins are locked"));
+        return Err(Rejection(words!("all pins are locked")));
     }
     Arc::make_mut(&mut document.pins).retain(|pin| pin.locked);
-    Ok(Edit::new("pull all pins out", document).with(ClothChange::SetPins))
+    Ok(Edit::new(words!("pull all pins out"), document).with(ClothChange::SetPins))
 }
 
 pub fn move_pin(mut document: Document, pin: PinId, piece: PieceId, at: DVec2) -> Result<Edit, Rejection> {
@@ -62,18 +63,19 @@ pub fn move_pin(mut document: Document, pin: PinId, piece: PieceId, at: DVec2) -
     checks::cloth_place(&document.pattern, place)?;
     let index = loose(&document, pin)?;
     if document.pins.iter().any(|other| other.id != pin && other.place == place) {
-        return Err(Rejection::new("there is a pin already"));
+        return Err(Rejection(words!("there is a pin already")));
     }
     Arc::make_mut(&mut document.pins)[index].place = place;
-    Ok(Edit::new("move a pin", document).with(ClothChange::SetPins))
+    Ok(Edit::new(words!("move a pin"), document).with(ClothChange::SetPins))
 }
 
 pub fn lock_pins(mut document: Document, pins: &[PinId], locked: bool) -> Result<Edit, Rejection> {
-    let what = if locked { "lock" } else { "unlock" };
     let label = match pins {
-        [] => return Err(Rejection::new("no pin is named")),
-        [pin] => format!("{what} {pin}"),
-        _ => format!("{what} {} pins", pins.len()),
+        [] => return Err(Rejection(words!("no pin is named"))),
+        [pin] if locked => words!("lock pin {n}", n = pin.0),
+        [pin] => words!("unlock pin {n}", n = pin.0),
+        _ if locked => words!("lock {n} pins", n = pins.len()),
+        _ => words!("unlock {n} pins", n = pins.len()),
     };
     for &pin in pins {
         let index = find(&document, pin)?;
@@ -84,14 +86,14 @@ pub fn lock_pins(mut document: Document, pins: &[PinId], locked: bool) -> Result
 
 fn find(document: &Document, pin: PinId) -> Result<usize, Rejection> {
     let index = document.pins.iter().position(|p| p.id == pin);
-    index.ok_or_else(|| Rejection(format!("there is no {pin}")))
+    index.ok_or_else(|| Rejection(words!("there is no {what}", what = pin)))
 }
 
 /// Index of a pin, if it is not locked.
 fn loose(document: &Document, pin: PinId) -> Result<usize, Rejection> {
     let index = find(document, pin)?;
     if document.pins[index].locked {
-        return Err(Rejection(format!("{pin} is locked: unlock it first")));
+        return Err(Rejection(words!("{what} is locked: unlock it first", what = pin)));
     }
     Ok(index)
 }
@@ -99,12 +101,12 @@ fn loose(document: &Document, pin: PinId) -> Result<usize, Rejection> {
 pub fn grab(document: Document, piece: PieceId, at: DVec2, mode: DragMode) -> Result<Edit, Rejection> {
     let place = ClothPlace { piece, at };
     checks::cloth_place(&document.pattern, place)?;
-    Ok(Edit::new("drag the cloth", document).with(ClothChange::Grab { at: place, mode }))
+    Ok(Edit::new(words!("drag the cloth"), document).with(ClothChange::Grab { at: place, mode }))
 }
 
 pub fn drag_to(document: Document, ray: Ray) -> Result<Edit, Rejection> {
     if !ray.is_valid() {
-        return Err(Rejection::new("the pointer is nowhere in the scene"));
+        return Err(Rejection(words!("the pointer is nowhere in the scene")));
     }
-    Ok(Edit::new("drag the cloth", document).with(ClothChange::DragTo(ray)))
+    Ok(Edit::new(words!("drag the cloth"), document).with(ClothChange::DragTo(ray)))
 }

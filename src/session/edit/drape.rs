@@ -2,7 +2,7 @@
 
 use crate::cloth::Fabric;
 use crate::geometry::ids::PieceId;
-use crate::io::words::readable;
+use crate::geometry::words::{within_quotes, words};
 use crate::session::command::Rejection;
 use crate::session::document::Document;
 use crate::session::edit::{ClothChange, Edit, checks};
@@ -16,39 +16,45 @@ pub fn sew(mut document: Document) -> Result<Edit, Rejection> {
     check_placed(&document)?;
     // Pins held the previous cloth.
     document.drop_pins();
-    Ok(Edit::new("sew", document).with(ClothChange::Sew))
+    Ok(Edit::new(words!("sew"), document).with(ClothChange::Sew))
 }
 
 pub fn dress(mut document: Document, choice: StartChoice) -> Result<Edit, Rejection> {
     let has_marks = document.marks.pairs().next().is_some() && choice.only != Some(Start::Placement);
     if document.pattern.pieces.is_empty() {
-        return Err(Rejection::new("there is no piece of cloth to put on"));
+        return Err(Rejection(words!("there is no piece of cloth to put on")));
     }
     if !has_marks {
         check_placed(&document)?;
     }
     // Pins held the previous cloth.
     document.drop_pins();
-    Ok(Edit::new("dress", document).with(ClothChange::Dress(choice)))
+    Ok(Edit::new(words!("dress"), document).with(ClothChange::Dress(choice)))
 }
 
 fn check_placed(document: &Document) -> Result<(), Rejection> {
     let mut pieces = document.pattern.pieces.values();
     let is_placed = pieces.any(|piece| piece.placement.is_some());
-    let words = "no piece is placed in space: paint marks and wrap, or import a pattern that tells where its pieces go";
-    if is_placed { Ok(()) } else { Err(Rejection::new(words)) }
+    let words = words!(
+        "no piece is placed in space: paint marks and wrap, or import a pattern that tells where its pieces go"
+    );
+    if is_placed { Ok(()) } else { Err(Rejection(words)) }
 }
 
 pub fn set_draping(document: Document, on: bool) -> Result<Edit, Rejection> {
-    let label = if on { "drape" } else { "stop draping" };
+    let label = if on { words!("drape") } else { words!("stop draping") };
     Ok(Edit::new(label, document).with(ClothChange::SetDraping(on)))
 }
 
 pub fn step(document: Document, ticks: u32) -> Result<Edit, Rejection> {
     if !(1..=MOST_TICKS).contains(&ticks) {
-        return Err(Rejection(format!("cloth is draped for 1 to {MOST_TICKS} ticks at a time, not {ticks}")));
+        return Err(Rejection(words!(
+            "cloth is draped for 1 to {most} ticks at a time, not {ticks}",
+            most = MOST_TICKS,
+            ticks
+        )));
     }
-    Ok(Edit::new("drape a step", document).with(ClothChange::StepDraping(ticks)))
+    Ok(Edit::new(words!("drape a step"), document).with(ClothChange::StepDraping(ticks)))
 }
 
 pub fn set_fabric(
@@ -70,7 +76,7 @@ pub fn set_fabric(
             document.fabrics.pieces.remove(&piece);
         }
     }
-    Ok(Edit::new("change the fabric", document).with(ClothChange::SetFabrics))
+    Ok(Edit::new(words!("change the fabric"), document).with(ClothChange::SetFabrics))
 }
 
 fn known(name: Option<&str>) -> Result<(), Rejection> {
@@ -78,8 +84,12 @@ fn known(name: Option<&str>) -> Result<(), Rejection> {
         None => Ok(()),
         Some(name) => {
             let names: Vec<&str> = Fabric::presets().iter().map(|f| &*f.name).collect();
-            let words = format!("there is no fabric {name:?}; there are {}", names.join(", "));
-            Err(Rejection(readable(&words)))
+            let words = words!(
+                "there is no fabric \"{name}\"; there are {names}",
+                name = within_quotes(name),
+                names = names.join(", ")
+            );
+            Err(Rejection(checks::readable_words(words)))
         }
     }
 }

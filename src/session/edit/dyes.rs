@@ -3,6 +3,7 @@
 use std::sync::Arc;
 
 use crate::geometry::ids::PieceId;
+use crate::geometry::words::{Words, within_quotes, words};
 use crate::session::command::Rejection;
 use crate::session::document::Document;
 use crate::session::dyes::{Colourway, Dye, colourways_problem};
@@ -15,7 +16,7 @@ pub fn set_dye(mut document: Document, piece: Option<PieceId>, dye: Dye) -> Resu
     }
     document.dyes.set(piece, dye);
     match document.dyes.problem().or_else(|| artwork::problem(&document)) {
-        None => Ok(Edit::new("change the colour", document)),
+        None => Ok(Edit::new(words!("change the colour"), document)),
         Some(words) => Err(Rejection(words)),
     }
 }
@@ -30,7 +31,7 @@ pub fn keep(mut document: Document, name: &str) -> Result<Edit, Rejection> {
         None => colourways.push(kept),
     }
     match colourways_problem(colourways) {
-        None => Ok(Edit::new("keep the colourway", document)),
+        None => Ok(Edit::new(words!("keep the colourway"), document)),
         Some(words) => Err(Rejection(words)),
     }
 }
@@ -40,7 +41,7 @@ pub fn wear(mut document: Document, name: &str) -> Result<Edit, Rejection> {
     let Colourway { fabrics, dyes, .. } = find(&document, name)?.clone();
     let is_same_cloth = document.fabrics == fabrics;
     (document.fabrics, document.dyes) = (fabrics, dyes);
-    let edit = Edit::new("change the colourway", document);
+    let edit = Edit::new(words!("change the colourway"), document);
     Ok(if is_same_cloth { edit } else { edit.with(ClothChange::SetFabrics) })
 }
 
@@ -48,14 +49,21 @@ pub fn wear(mut document: Document, name: &str) -> Result<Edit, Rejection> {
 pub fn delete(mut document: Document, name: &str) -> Result<Edit, Rejection> {
     find(&document, name)?;
     Arc::make_mut(&mut document.colourways).retain(|colourway| colourway.name != name);
-    Ok(Edit::new("delete the colourway", document))
+    Ok(Edit::new(words!("delete the colourway"), document))
 }
 
 fn find<'d>(document: &'d Document, name: &str) -> Result<&'d Colourway, Rejection> {
     let found = document.colourways.iter().find(|colourway| colourway.name == name);
     found.ok_or_else(|| {
         let names: Vec<&str> = document.colourways.iter().map(|colourway| &*colourway.name).collect();
-        let there_are = if names.is_empty() { "it has none".to_owned() } else { names.join(", ") };
-        Rejection(format!("there is no colourway {name:?}: {there_are}"))
+        let there_are = match names.is_empty() {
+            true => words!("it has none"),
+            false => Words::plain(names.join(", ")),
+        };
+        Rejection(words!(
+            "there is no colourway \"{name}\": {there_are}",
+            name = within_quotes(name),
+            there_are
+        ))
     })
 }

@@ -16,6 +16,7 @@ use std::sync::Arc;
 use glam::DVec3;
 
 use crate::drag::{DragMode, Ray};
+use crate::geometry::words::{Words, words};
 use crate::pattern::edit::{Carried, PatternEdit};
 use crate::pattern::{Pattern, Problem};
 use crate::relax::RelaxSettings;
@@ -77,7 +78,7 @@ pub struct Edit {
     /// The new document.
     pub document: Document,
     /// Label for menus: "Undo LABEL".
-    pub label: String,
+    pub label: Words,
     /// Request to the simulation.
     pub cloth: ClothChange,
     /// What was lost, such as marks that found no place.
@@ -85,8 +86,8 @@ pub struct Edit {
 }
 
 impl Edit {
-    fn new(label: impl Into<String>, document: Document) -> Self {
-        Self { document, label: label.into(), cloth: ClothChange::None, problems: Vec::new() }
+    fn new(label: Words, document: Document) -> Self {
+        Self { document, label, cloth: ClothChange::None, problems: Vec::new() }
     }
 
     fn with(self, cloth: ClothChange) -> Self {
@@ -189,7 +190,7 @@ fn untied(document: &Document, command: &Command, bodies: &mut BodyCache) -> Res
         Command::LockPins { pins, locked } => drag::lock_pins(new, pins, *locked),
         Command::Grab { piece, at, mode } => drag::grab(new, *piece, *at, *mode),
         Command::DragTo { ray } => drag::drag_to(new, *ray),
-        Command::Release => Ok(Edit::new("let go", new).with(ClothChange::Release)),
+        Command::Release => Ok(Edit::new(words!("let go"), new).with(ClothChange::Release)),
         Command::SetRelaxing { on } => wrap::set_relaxing(new, *on),
         Command::Sew => drape::sew(new),
         Command::Dress { choice } => drape::dress(new, *choice),
@@ -209,7 +210,7 @@ fn untied(document: &Document, command: &Command, bodies: &mut BodyCache) -> Res
         | Command::Undo
         | Command::Redo
         | Command::CancelGesture
-        | Command::ForgetHistory { .. } => Err(Rejection::new("this command is the session's own")),
+        | Command::ForgetHistory { .. } => Err(Rejection(words!("this command is the session's own"))),
     }
 }
 
@@ -218,7 +219,7 @@ fn edit_by(document: Document, edit: PatternEdit) -> Result<Edit, Rejection> {
 }
 
 /// The first thing in `document` that no command would accept; for documents from files.
-pub fn document_problem(document: &Document) -> Option<String> {
+pub fn document_problem(document: &Document) -> Option<Words> {
     let Document {
         pattern,
         body,
@@ -237,10 +238,10 @@ pub fn document_problem(document: &Document) -> Option<String> {
         settings,
     } = document;
     if marks.ids().max().is_some_and(|id| id.0 > *last_mark) {
-        return Some("the counter of marks is behind their ids".to_owned());
+        return Some(words!("the counter of marks is behind their ids"));
     }
     if pins.iter().any(|pin| pin.id.0 > *last_pin) {
-        return Some("the counter of pins is behind their ids".to_owned());
+        return Some(words!("the counter of pins is behind their ids"));
     }
     pattern_problem(pattern)
         .or_else(|| {
@@ -256,7 +257,7 @@ pub fn document_problem(document: &Document) -> Option<String> {
             let at = (*moment)?;
             match animations {
                 Some(animations) => animations.body(body.name(), Some(at)).err(),
-                None => Some("the body is in an animation that is not there".to_owned()),
+                None => Some(words!("the body is in an animation that is not there")),
             }
         })
         .or_else(|| bones.as_ref().and_then(|bones| checks::bones(bones).err()).map(|why| why.0))
@@ -272,7 +273,7 @@ pub fn document_problem(document: &Document) -> Option<String> {
 }
 
 /// The first thing in `pattern` that no command would accept; for patterns from files.
-fn pattern_problem(pattern: &Pattern) -> Option<String> {
+fn pattern_problem(pattern: &Pattern) -> Option<Words> {
     checks::pattern(pattern).err().map(|why| why.0)
 }
 
@@ -282,7 +283,7 @@ pub fn is_place(p: DVec3) -> bool {
 }
 
 /// The first thing in the source of cloth that no command would accept; for cloth from files.
-pub fn source_problem(pattern: &Pattern, marks: &Marks, settings: &Settings) -> Option<String> {
+pub fn source_problem(pattern: &Pattern, marks: &Marks, settings: &Settings) -> Option<Words> {
     let checked = checks::pattern(pattern).and_then(|()| checks::marks(marks, pattern));
     checked.and_then(|()| checks::settings(settings)).err().map(|why| why.0)
 }

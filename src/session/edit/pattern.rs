@@ -6,6 +6,7 @@ use glam::DVec2;
 
 use crate::geometry::ids::PieceId;
 use crate::geometry::polygon;
+use crate::geometry::words::{Words, words};
 use crate::pattern::edit::{self, Carried, PatternEdit};
 use crate::pattern::{Edge, Pattern, Piece, PiecePoint, Seam};
 use crate::session::command::Rejection;
@@ -19,7 +20,7 @@ const MOST_EDITS: usize = 10_000;
 
 pub fn edit(mut document: Document, edits: &[PatternEdit]) -> Result<Edit, Rejection> {
     if edits.is_empty() || edits.len() > MOST_EDITS {
-        return Err(Rejection(format!("a command holds 1 to {MOST_EDITS} changes")));
+        return Err(Rejection(words!("a command holds 1 to {most} changes", most = MOST_EDITS)));
     }
     let before = Arc::clone(&document.pattern);
     let (mut label, mut carried) = (None, Vec::new());
@@ -57,7 +58,7 @@ pub fn replace_all(
     document.take_marks(Arc::clone(marks));
     document.drop_pins();
     artwork::forget_gone(&mut document.artwork, |_| false);
-    Ok(Edit::new(format!("take {name}"), document).with(ClothChange::Clear))
+    Ok(Edit::new(words!("take {name}", name), document).with(ClothChange::Clear))
 }
 
 /// Checks the numbers and names of an edit by itself.
@@ -89,6 +90,7 @@ fn check(edit: &PatternEdit) -> Result<(), Rejection> {
         PatternEdit::SetTopstitch { topstitch, .. } => sound(topstitch.and_then(|stitch| stitch.problem())),
         PatternEdit::SetHem { hem, .. } => sound(hem.and_then(|hem| hem.problem())),
         PatternEdit::SetPiping { piping, .. } => sound(piping.and_then(|piping| piping.problem())),
+        PatternEdit::SetWrinkle { wrinkle, .. } => sound(wrinkle.and_then(|wrinkle| wrinkle.problem())),
         PatternEdit::AddButtons { buttons } => buttons.iter().try_for_each(checks::button),
         PatternEdit::SetButton { button, .. } => checks::button(button),
         PatternEdit::SetZip { zip, .. } => sound(zip.and_then(|zip| zip.problem())),
@@ -96,7 +98,7 @@ fn check(edit: &PatternEdit) -> Result<(), Rejection> {
     }
 }
 
-fn sound(problem: Option<String>) -> Result<(), Rejection> {
+fn sound(problem: Option<Words>) -> Result<(), Rejection> {
     problem.map_or(Ok(()), |words| Err(Rejection(words)))
 }
 

@@ -5,6 +5,7 @@ use std::sync::Arc;
 
 use crate::body::Surface;
 use crate::cloth::{self, Carry, Skip};
+use crate::geometry::words::Words;
 use crate::sim::source::{DrapeSource, GarmentSource};
 use crate::sim::start::{Start, StartChoice};
 use crate::sim::world::{World, unlaid};
@@ -29,7 +30,7 @@ impl World {
         source: Arc<GarmentSource>,
         body: Arc<Surface>,
         fabrics: Arc<DrapeSource>,
-    ) -> Result<Self, String> {
+    ) -> Result<Self, Words> {
         let choice = StartChoice { only: Some(Start::Placement), draped: true };
         match coarse_edge(&source) {
             None => Self::placed(source, body, fabrics),

@@ -7,6 +7,7 @@ use glam::DVec3;
 use crate::contact::Splits;
 use crate::drag::Ray;
 use crate::drape::{DrapedGarment, DrapedSettings, Undrapable};
+use crate::geometry::words::{Words, words};
 use crate::sim::protocol::DrapeState;
 use crate::sim::source::{ClothPlace, DrapeSource};
 use crate::sim::world::World;
@@ -178,7 +179,7 @@ impl World {
         let (Some(garment), Some(body), Some(source), Some(draping)) =
             (&self.garment, &self.body, &self.source, &mut self.draping)
         else {
-            return Err(Undrapable("there is no cloth on the body".to_owned()));
+            return Err(Undrapable(words!("there is no cloth on the body")));
         };
         let settings =
             DrapedSettings { strain: draping.source.strain, self_collision: true, skips: source.relax.skips };
@@ -201,9 +202,9 @@ impl World {
         Ok(())
     }
 
-    fn fail_draping(&mut self, words: String) {
+    fn fail_draping(&mut self, words: Words) {
         self.draping = None;
-        self.tell("garment".to_owned(), words);
+        self.tell(words!("garment"), words);
     }
 
     /// Once cloth rests, splits edges that would cut the body.

@@ -18,6 +18,7 @@ use crate::cloth::{self, Carry, ClothState, Counters, FlatPiece, Garment, Skip};
 use crate::contact::{Bone, Bones, Splits, separation};
 use crate::drag::{DragMode, Dragging, Ray};
 use crate::geometry::ids::PieceId;
+use crate::geometry::words::{Words, words};
 use crate::pattern::edit::Carried;
 use crate::pattern::triangulate::Meshes;
 use crate::pattern::{Pattern, Problem, ProblemKind};
@@ -269,13 +270,14 @@ impl World {
         body: Arc<Surface>,
         cloth: Arc<ClothState>,
         was_draped: bool,
-    ) -> Result<Self, String> {
+    ) -> Result<Self, Words> {
         let (garment, problems) = cloth::build(&source.pattern, source.edge_length);
         let count = garment.vertex_count;
         if cloth.positions.len() != count || cloth.mapped.len() != count {
-            return Err(format!(
-                "the dressed cloth has {} vertices, the pattern it belongs to gives {count}",
-                cloth.positions.len()
+            return Err(words!(
+                "the dressed cloth has {n} vertices, the pattern it belongs to gives {count}",
+                n = cloth.positions.len(),
+                count
             ));
         }
         let splits = Splits::of_lying(&garment, &cloth, &body, source.relax.offset);
@@ -550,8 +552,8 @@ fn unlaid_pieces(garment: &Garment, cloth: &ClothState) -> Vec<Problem> {
     unlaid
         .map(|(id, name)| Problem {
             kind: ProblemKind::Dressing,
-            place: format!("{name} ({id})"),
-            words: "it came to the dressed garment and does not lie yet; wrap again to lay it".to_owned(),
+            place: words!("{name} ({id})", name, id),
+            words: words!("it came to the dressed garment and does not lie yet; wrap again to lay it"),
         })
         .collect()
 }

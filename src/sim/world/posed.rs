@@ -5,6 +5,7 @@ use std::sync::Arc;
 use crate::body::Surface;
 use crate::cloth::ClothState;
 use crate::contact::Splits;
+use crate::geometry::words::{Words, words};
 use crate::repose::{Change, Outcome, ReposeSettings, Reposer};
 use crate::sim::source::DrapeSource;
 use crate::sim::source::GarmentSource;
@@ -69,7 +70,7 @@ impl World {
         body: Arc<Surface>,
         marks: Arc<Marks>,
         then: Then,
-    ) -> Result<Option<Self>, String> {
+    ) -> Result<Option<Self>, Words> {
         let (Some(garment), Some(from), Some(source)) = (&self.garment, &self.body, &self.source) else {
             return Ok(None);
         };
@@ -94,9 +95,9 @@ impl World {
         self.release();
         let new = || Reposer::new(&garment, from, ClothState::clone(&self.cloth), source.relax);
         let mut reposer =
-            known.or_else(new).ok_or("the garment is too large for this machine's memory".to_owned())?;
+            known.or_else(new).ok_or_else(|| words!("the garment is too large for this machine's memory"))?;
         let mut change = Change::new(&mut reposer, Arc::clone(&body), then.care())
-            .ok_or("the body in the new pose has other triangles than the dressed one".to_owned())?;
+            .ok_or_else(|| words!("the body in the new pose has other triangles than the dressed one"))?;
         change.step(&mut reposer);
         let shown = Arc::new(change.cloth().clone());
         let posing = Posing { source, body, size: None, then, reposer, change, shown };
@@ -112,7 +113,7 @@ impl World {
         body: Arc<Surface>,
         marks: Arc<Marks>,
         fabrics: Arc<DrapeSource>,
-    ) -> Result<Option<Self>, String> {
+    ) -> Result<Option<Self>, Words> {
         let then = if self.was_draped { Then::Part(fabrics) } else { Then::Settle(fabrics) };
         let grows = self.dressing.as_ref().is_some_and(|dressing| dressing.relaxer().is_none());
         if grows || self.sewing.is_some() || self.trials.is_some() {

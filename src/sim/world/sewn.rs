@@ -11,6 +11,7 @@ use crate::drape::garment::sewing::{Sewing, Stage};
 use crate::drape::{DrapedSettings, Undrapable};
 use crate::fit::{ShortSeam, short_seams};
 use crate::geometry::ids::PieceId;
+use crate::geometry::words::{Words, decimal, words};
 use crate::pattern::naming;
 use crate::pattern::triangulate::Meshes;
 use crate::pattern::{Problem, ProblemKind};
@@ -74,7 +75,7 @@ impl World {
         source: Arc<GarmentSource>,
         body: Arc<Surface>,
         fabrics: Arc<DrapeSource>,
-    ) -> Result<Self, String> {
+    ) -> Result<Self, Words> {
         let mut meshes = Meshes::default();
         let (garment, mut problems) = cloth::build_again(&source.pattern, source.edge_length, &mut meshes);
         let garment = Arc::new(garment);
@@ -85,13 +86,13 @@ impl World {
         let places = led(&garment, &body, &places);
         for (id, name) in &garment.pieces {
             if source.pattern.pieces.get(id).is_some_and(|piece| piece.placement.is_none()) {
-                let words = "it is not placed in space; it stays in the pattern".to_owned();
-                let place = format!("{name} ({id})");
+                let words = words!("it is not placed in space; it stays in the pattern");
+                let place = words!("{name} ({id})", name, id);
                 problems.push(Problem { kind: ProblemKind::Dressing, place, words });
             }
         }
         let outfit = Outfit { garment: Arc::clone(&garment), places, fabrics };
-        let layer = outfit.next(None).ok_or("none of its pieces is placed in space")?;
+        let layer = outfit.next(None).ok_or_else(|| words!("none of its pieces is placed in space"))?;
         let (sewing, cloth) = outfit
             .begun(layer, &unlaid(&garment), &body, source.relax.skips)
             .map_err(|Undrapable(words)| words)?;
@@ -112,7 +113,7 @@ impl World {
         &self,
         source: Arc<GarmentSource>,
         body: Arc<Surface>,
-    ) -> Option<Result<Self, String>> {
+    ) -> Option<Result<Self, Words>> {
         let fabrics = Arc::clone(&self.sewing.as_ref()?.outfit.fabrics);
         let places = Arc::clone(&self.places);
         Some(Self::placed(source, body, fabrics).map(|world| Self { places, ..world }))
@@ -128,7 +129,7 @@ impl World {
             Ok(true) => self.finish_sewing(),
             Err(Undrapable(words)) => {
                 self.sewing = None;
-                self.tell("garment".to_owned(), words);
+                self.tell(words!("garment"), words);
             }
         }
     }
@@ -153,14 +154,13 @@ impl World {
             return;
         };
         for ShortSeam { seam, stretch, missing } in short_seams(&garment, &self.cloth) {
-            let words = format!(
-                "it does not come together round this body: {:.1} mm are missing; the cloth beside it is stretched by up \
-                 to {:.1} %",
-                missing * 1e3,
-                stretch * 100.0
+            let words = words!(
+                "it does not come together round this body: {mm} mm are missing; the cloth beside it is stretched by up to {percent} %",
+                mm = decimal(missing * 1e3, 1),
+                percent = decimal(stretch * 100.0, 1)
             );
             let pattern = self.source.as_ref().map(|source| &source.pattern);
-            let place = pattern.map_or_else(|| seam.to_string(), |pattern| naming::seam_place(pattern, seam));
+            let place = pattern.map_or_else(|| seam.into(), |pattern| naming::seam_place(pattern, seam));
             self.tell(place, words);
         }
     }
@@ -176,11 +176,11 @@ impl World {
                 self.cloth = Arc::new(cloth);
                 self.sewing = Some(Arc::new(Placed { sewing, outfit, layer }));
             }
-            Err(Undrapable(words)) => self.tell("garment".to_owned(), words),
+            Err(Undrapable(words)) => self.tell(words!("garment"), words),
         }
     }
 
-    pub(in crate::sim) fn tell(&mut self, place: String, words: String) {
+    pub(in crate::sim) fn tell(&mut self, place: Words, words: Words) {
         let problem = Problem { kind: ProblemKind::Dressing, place, words };
         Arc::make_mut(&mut self.problems).push(problem);
     }

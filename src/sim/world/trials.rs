@@ -4,6 +4,7 @@ use std::sync::Arc;
 
 use crate::body::{Surface, landmarks};
 use crate::fit::{BodyIndex, Report, TightPlace, measure, tight_places};
+use crate::geometry::words::{Words, words};
 use crate::sim::fault::{Fault, Lies, faults};
 use crate::sim::source::DrapeSource;
 use crate::sim::source::GarmentSource;
@@ -42,7 +43,7 @@ pub struct Trials {
     /// The best result so far, as a world and an index in `tried`.
     best: Option<(Arc<World>, usize)>,
     /// Failure of the last tick, in words.
-    broken: Option<String>,
+    broken: Option<Words>,
     /// Edge length of the garment's own mesh, metres, if `source` has a coarser one.
     fine: Option<f64>,
     /// Result of the trials, while the cloth of the start that was taken settles in the garment's own mesh.
@@ -52,7 +53,7 @@ pub struct Trials {
     /// The cloth of the coarser mesh, from which it began.
     coarse: Option<Arc<World>>,
     /// That cloth once it was draped and had faults all the same, with those faults and their number of places.
-    draped_fine: Option<(Arc<World>, Vec<String>, usize)>,
+    draped_fine: Option<(Arc<World>, Vec<Words>, usize)>,
 }
 
 /// Stages of settling in the garment's own mesh.
@@ -95,7 +96,7 @@ impl Trials {
     }
 
     /// Records the result of the present start, whose cloth is in `world`.
-    fn note(&mut self, world: World, faults: Vec<String>, places: usize) {
+    fn note(&mut self, world: World, faults: Vec<Words>, places: usize) {
         let tried = Tried { start: self.now, draped: self.now().1, faults, places, ticks: self.ticks };
         let is_clean = self.is_clean(&tried);
         let rank = |tried: &Tried| {
@@ -127,7 +128,7 @@ impl World {
         body: Arc<Surface>,
         fabrics: Arc<DrapeSource>,
         choice: StartChoice,
-    ) -> Result<Self, String> {
+    ) -> Result<Self, Words> {
         let mut left: Vec<Start> =
             Start::ALL.into_iter().filter(|s| choice.only.is_none_or(|o| o == *s)).collect();
         // What turns over is sewn as it is placed: wrapped round the body a collar stands, and does not turn over any more. Marks
@@ -161,9 +162,7 @@ impl World {
         };
         match Self::next_start(&mut trials) {
             Some(world) => Ok(Self { trials: Some(Arc::new(trials)), ..world }),
-            None => {
-                Err(trials.tried.iter().flat_map(|tried| tried.faults.clone()).collect::<Vec<_>>().join("; "))
-            }
+            None => Err(Words::joined(trials.tried.iter().flat_map(|tried| tried.faults.clone()), "; ")),
         }
     }
 
@@ -201,7 +200,7 @@ impl World {
     }
 
     /// Records the failure of the present start, in words. False where none is being tried.
-    pub fn break_start(&mut self, words: String) -> bool {
+    pub fn break_start(&mut self, words: Words) -> bool {
         let Some(trials) = &mut self.trials else { return false };
         Arc::make_mut(trials).broken = Some(words);
         true
@@ -212,7 +211,7 @@ impl World {
         &self,
         source: Arc<GarmentSource>,
         body: Arc<Surface>,
-    ) -> Option<Result<Self, String>> {
+    ) -> Option<Result<Self, Words>> {
         let trials = self.trials.as_ref()?;
         let source = match trials.fine {
             Some(edge_length) => Arc::new(GarmentSource { edge_length, ..GarmentSource::clone(&source) }),
@@ -237,21 +236,21 @@ impl World {
     }
 
     /// Judges the start that has ended. Returns the world that was taken, or None where another stage or start has begun.
-    fn after_start(&mut self, trials: &mut Trials, broken: Option<String>) -> Option<Self> {
-        let mut faults: Vec<String> = broken.into_iter().collect();
+    fn after_start(&mut self, trials: &mut Trials, broken: Option<Words>) -> Option<Self> {
+        let mut faults: Vec<Words> = broken.into_iter().collect();
         let (mut places, mut is_astray) = (0, false);
         if faults.is_empty() {
             if let Some(judged) = self.judged() {
-                let words = |fault: Fault| format!("{}: {}", fault.problem.place, fault.problem.words);
+                let words = |fault: Fault| fault.problem.in_words();
                 faults.extend(judged.faults.into_iter().map(words));
                 (places, is_astray) = (judged.places, judged.is_astray);
             }
             if trials.is_out_of_time() && !self.lies_still() {
-                faults.push("it still moves".to_owned());
+                faults.push(words!("it still moves"));
             }
             if trials.draping && !self.was_draped {
                 let why = self.problems.last().map(|problem| problem.words.clone()).unwrap_or_default();
-                faults.push(format!("it was not draped: {why}"));
+                faults.push(words!("it was not draped: {why}", why));
             }
         }
         if trials.refining.is_some() && self.mends_refined(trials, &faults, places) {
@@ -303,7 +302,7 @@ impl World {
     }
 
     /// Goes on with draped cloth that had `faults` in the garment's own mesh. False when there is nothing more to try.
-    fn mends_refined(&mut self, trials: &mut Trials, faults: &[String], places: usize) -> bool {
+    fn mends_refined(&mut self, trials: &mut Trials, faults: &[Words], places: usize) -> bool {
         match trials.refinement {
             Refinement::First if trials.draping && !faults.is_empty() && self.not_finite().is_none() => {
                 trials.refinement = Refinement::Mending;
@@ -352,7 +351,7 @@ impl World {
 }
 
 /// Begins `start` with the garment of `trials`; the error is in words.
-fn begun(start: Start, trials: &Trials) -> Result<World, String> {
+fn begun(start: Start, trials: &Trials) -> Result<World, Words> {
     let (source, body) = (Arc::clone(&trials.source), Arc::clone(&trials.body));
     if start == Start::Placement {
         return World::placed(source, body, Arc::clone(&trials.fabrics));
@@ -361,12 +360,13 @@ fn begun(start: Start, trials: &Trials) -> Result<World, String> {
         return Ok(World::wrapped(source, body));
     }
     if source.pattern.outermost() > 0 {
-        return Err("marks are suggested for one layer only: several are sewn over each other".to_owned());
+        return Err(words!("marks are suggested for one layer only: several are sewn over each other"));
     }
     let marks = suggested(&source.pattern, &body, source.relax.offset * body.scale());
     if marks.pairs().next().is_none() {
-        return Err("no marks can be suggested: none of its pieces is placed in front of or behind the body"
-            .to_owned());
+        return Err(words!(
+            "no marks can be suggested: none of its pieces is placed in front of or behind the body"
+        ));
     }
     Ok(World::wrapped(
         Arc::new(GarmentSource { marks: Arc::new(marks), ..GarmentSource::clone(&source) }),
@@ -420,7 +420,7 @@ mod tests {
     fn what_has_a_fault_draped_in_its_own_mesh_alone_is_taken_undraped() {
         let (mut world, mut trials) = faulty();
         let before = world.garment.as_ref().map_or(0, |garment| garment.triangles.len());
-        assert!(world.after_start(&mut trials, Some("it fell off".to_owned())).is_none());
+        assert!(world.after_start(&mut trials, Some(Words::plain("it fell off"))).is_none());
         assert_eq!(
             (trials.refinement, trials.now(), trials.count()),
             (Refinement::Undraped, (Start::Marks, false), 1)
@@ -436,11 +436,11 @@ mod tests {
     #[test]
     fn draped_cloth_is_taken_where_relaxed_cloth_has_a_fault_too() {
         let (mut world, mut trials) = faulty();
-        assert!(world.after_start(&mut trials, Some("it fell off".to_owned())).is_none());
+        assert!(world.after_start(&mut trials, Some(Words::plain("it fell off"))).is_none());
         let world =
-            rested(world).after_start(&mut trials, Some("it crosses itself".to_owned())).expect("taken");
+            rested(world).after_start(&mut trials, Some(Words::plain("it crosses itself"))).expect("taken");
         let started = world.started.expect("told");
-        assert_eq!((started.taken, &started.taken().faults[..]), (0, &["it fell off".to_owned()][..]));
+        assert_eq!((started.taken, &started.taken().faults[..]), (0, &[Words::plain("it fell off")][..]));
         assert!(world.was_draped && started.tried.len() == 2);
     }
 
@@ -448,7 +448,7 @@ mod tests {
     fn only_draped_cloth_is_taken_where_that_is_asked_for() {
         let (mut world, mut trials) = faulty();
         trials.choice.draped = true;
-        let world = world.after_start(&mut trials, Some("it fell off".to_owned())).expect("taken");
+        let world = world.after_start(&mut trials, Some(Words::plain("it fell off"))).expect("taken");
         assert_eq!(world.started.expect("told").tried.len(), 1);
     }
 }

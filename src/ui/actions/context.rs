@@ -14,7 +14,6 @@ use crate::ui::actions::layout::Layout;
 use crate::ui::actions::picked::Picked;
 use crate::ui::actions::row::Need;
 use crate::ui::actions::sight::Sight;
-use crate::ui::actions::steps::step_words;
 use crate::ui::actions::{Action, Tool};
 use crate::ui::files::recent::RecentFile;
 use crate::ui::language::{say, tr};
@@ -201,6 +200,7 @@ impl FrameContext {
             Need::Standing => (picked.standing, "No piece that stands round the body is selected"),
             Need::PickedEdge => (picked.edges > 0, "No edge is selected"),
             Need::PickedLine => (picked.edges + picked.lines > 0, "No edge or line is selected"),
+            Need::PickedInnerLine => (picked.lines > 0, "No line inside a piece is selected"),
             Need::Buttons => (picked.buttons, "There is no button"),
             Need::PickedPoint => (picked.points > 0, "No point is selected"),
             Need::PickedSeam => (picked.seams > 0, "No seam is selected"),
@@ -284,8 +284,8 @@ impl FrameContext {
             return file.name().0;
         }
         match (action, &self.undo, &self.redo) {
-            (Action::Undo, Some(what), _) => say!("Undo {what}", what = step_words(what)),
-            (Action::Redo, _, Some(what)) => say!("Redo {what}", what = step_words(what)),
+            (Action::Undo, Some(what), _) => say!("Undo {what}", what),
+            (Action::Redo, _, Some(what)) => say!("Redo {what}", what),
             _ => action.row().label().to_owned(),
         }
     }

@@ -9,7 +9,6 @@ pub(in crate::ui) mod picked;
 pub(in crate::ui) mod row;
 pub mod rows;
 pub(in crate::ui) mod sight;
-pub(in crate::ui) mod steps;
 
 use crate::drag::DragMode;
 use crate::fit::MapKind;
@@ -146,6 +145,7 @@ pub enum Action {
     ToggleTopstitch,
     ToggleHem,
     TogglePiping,
+    ToggleWrinkle,
     ToggleZip,
     ToggleFastened,
     TurnSeam,

@@ -108,6 +108,8 @@ pub enum Need {
     PickedEdge,
     /// An edge or a line inside a piece is selected.
     PickedLine,
+    /// A line inside a piece is selected.
+    PickedInnerLine,
     /// There is a button.
     Buttons,
     /// A point is selected.

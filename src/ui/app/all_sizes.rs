@@ -7,6 +7,8 @@ use glam::UVec2;
 use image::RgbaImage;
 
 use crate::fit::{self, BodyIndex, MapKind};
+use crate::geometry::words::{Words, words};
+use crate::pattern::Problem;
 use crate::pattern::grading::graded;
 use crate::render::{Camera, Look, View, png};
 use crate::session::grading;
@@ -16,7 +18,8 @@ use crate::sim::{Runner, StartChoice};
 use crate::ui::app::App;
 use crate::ui::body_pane::Graphics;
 use crate::ui::files::{self, Purpose};
-use crate::ui::language::{number, say, signed, tr};
+use crate::ui::language::pictures::no_picture;
+use crate::ui::language::{number, said, say, signed, tr};
 use crate::ui::look::theme::Palette;
 use crate::ui::scenery::portrait::worn_scene;
 use crate::ui::scenery::scene::Scenery;
@@ -131,7 +134,7 @@ impl AllSizes {
             camera.look(View::Front);
             camera.frame_points(&scene.points(), PICTURE.x as f32 / PICTURE.y as f32);
             let picture = graphics.photograph(&scene, &camera, &Look::light(), PICTURE);
-            let mut picture = picture.map_err(|why| why.to_string())?;
+            let mut picture = picture.map_err(|why| no_picture(&why))?;
             maps.legend(&self.done[*size].size).burn(&mut picture);
             self.pictures.push(picture);
         }
@@ -150,7 +153,7 @@ impl AllSizes {
         for (i, picture) in self.pictures.iter().enumerate() {
             image::imageops::replace(&mut whole, picture, i64::from(PICTURE.x) * i as i64, 0);
         }
-        (!self.pictures.is_empty()).then(|| png(&whole).map_err(|why| why.to_string())).transpose()
+        (!self.pictures.is_empty()).then(|| png(&whole).map_err(|why| no_picture(&why))).transpose()
     }
 
     fn ui(&mut self, ctx: &egui::Context, palette: &Palette) -> Answer {
@@ -244,7 +247,7 @@ impl AllSizes {
                         true => (tr("dressed"), ui.visuals().text_color()),
                         false => (tr("not without faults"), palette.error),
                     };
-                    let all = size.why.iter().chain(&size.problems).cloned().collect::<Vec<_>>().join("\n");
+                    let all = size.why.iter().chain(&size.problems).map(said).collect::<Vec<_>>().join("\n");
                     let response = ui.label(RichText::new(words).color(ink));
                     if !all.is_empty() {
                         response.on_hover_text(all);
@@ -299,10 +302,10 @@ impl Trial {
         let mut fit = SizeFit::cut(&document.pattern, size, &graded);
         let mut document = document.clone();
         grading::take(&mut document, graded);
-        let begun = runner().map_err(|why| why.to_string()).and_then(|runner| {
+        let begun = runner().map_err(|why| Words::plain(why.to_string())).and_then(|runner| {
             let mut session = Session::new(Project { document, dressed: None }, runner);
             let dress = Command::Dress { choice: StartChoice::default() };
-            session.apply_alone(dress).map_err(|why| why.to_string())?;
+            session.apply_alone(dress).map_err(|why| why.0)?;
             Ok(session)
         });
         match begun {
@@ -334,19 +337,15 @@ impl Trial {
         let outfit = Outfit::of(snapshot, &document.fabrics);
         if let Some(outfit) = &outfit {
             let faults = snapshot.started.iter().flat_map(|started| &started.taken().faults).cloned();
-            let why: Vec<String> = self.fit.why.take().into_iter().chain(faults).collect();
+            let why: Vec<Words> = self.fit.why.take().into_iter().chain(faults).collect();
             let index = BodyIndex::new(&outfit.body);
             let report = fit::measure(&outfit.source.pattern, &outfit.garment, &outfit.state, &index);
-            let why = (!why.is_empty()).then(|| why.join("; "));
+            let why = (!why.is_empty()).then(|| Words::joined(why, "; "));
             self.fit.take(outfit.garment.triangles.len(), report.strain.p99, why);
             self.fit.ease = Ease::of(&document.body, outfit);
         } else if self.fit.why.is_none() {
-            let words: Vec<String> = snapshot
-                .problems
-                .iter()
-                .map(|problem| format!("{}: {}", problem.place, problem.words))
-                .collect();
-            self.fit.why = Some(say!("no cloth could be put on the body: {why}", why = words.join("; ")));
+            let why = Words::joined(snapshot.problems.iter().map(Problem::in_words), "; ");
+            self.fit.why = Some(words!("no cloth could be put on the body: {why}", why));
         }
         outfit
     }
@@ -366,7 +365,7 @@ impl App {
         if let Some(graphics) = &mut self.scene_pane.graphics
             && let Err(why) = sizes.draw(ctx, graphics)
         {
-            self.messages.error(say!("There is no picture: {why}", why));
+            self.messages.error(why);
         }
         if sizes.trial.is_none() && !sizes.waiting.is_empty() {
             ctx.request_repaint();

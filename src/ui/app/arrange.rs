@@ -14,7 +14,7 @@ use crate::ui::actions::layout::{Layout, Panes};
 use crate::ui::actions::picked::Picked;
 use crate::ui::app::App;
 use crate::ui::body_pane;
-use crate::ui::language::{say, tr};
+use crate::ui::language::{said, say, tr};
 use crate::ui::look::theme::Palette;
 use crate::ui::panels::context::PanelContext;
 use crate::ui::panels::side;
@@ -139,6 +139,7 @@ impl App {
         document: &Document,
         snapshot: &Snapshot,
     ) -> FrameContext {
+        let [undo, redo] = self.shown().next_labels().map(|label| label.map(said));
         let asked = self.demo.is_none() && self.wrap_seq.is_some_and(|seq| snapshot.seq < seq);
         let growing = snapshot.phase == Some(Phase::Growing) && snapshot.working;
         let work = match snapshot.phase {
@@ -151,8 +152,8 @@ impl App {
         let pace = self.pacer.frame(ctx.input(|i| i.time), self.frames, snapshot.tick, work);
         FrameContext {
             pace,
-            undo: self.shown().undo_label().map(str::to_owned),
-            redo: self.shown().redo_label().map(str::to_owned),
+            undo,
+            redo,
             // In a demo the mouse only moves the view.
             tool: if self.demo.is_some() { Tool::Move } else { self.tool },
             mouse: if self.demo.is_some() { Mouse::Clo } else { self.preferences.mouse },

@@ -6,9 +6,8 @@ use crate::ui::actions::Action;
 use crate::ui::actions::asks::{Ask, Asks};
 use crate::ui::actions::context::FrameContext;
 use crate::ui::actions::drawer::Drawer;
-use crate::ui::actions::steps::step_words;
 use crate::ui::app::App;
-use crate::ui::language::{say, tr};
+use crate::ui::language::{said, say, tr};
 use crate::ui::look::theme::Palette;
 use crate::ui::maps;
 
@@ -70,7 +69,7 @@ impl App {
     /// The undo history, oldest step first; undone steps are fainter. A click goes to a step.
     fn history_ui(&self, ui: &mut egui::Ui, palette: &Palette, asks: &mut Asks) {
         let session = self.shown();
-        let steps = session.step_labels().chain(session.undone_labels()).map(step_words);
+        let steps = session.step_labels().chain(session.undone_labels()).map(said);
         let labels: Vec<String> = std::iter::once(tr("As it was opened").to_owned()).chain(steps).collect();
         let done = session.step_labels().count();
         ui.spacing_mut().item_spacing.y = 1.0;

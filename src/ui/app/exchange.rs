@@ -3,6 +3,7 @@
 use std::path::Path;
 use std::sync::Arc;
 
+use crate::geometry::words::Words;
 use crate::io::scale::DrawingUnit;
 use crate::pattern::edit::PatternEdit;
 use crate::place::Moved;
@@ -12,8 +13,9 @@ use crate::ui::app::{App, sentence};
 use crate::ui::files::obj_sequence::read_sequence;
 use crate::ui::files::posed_motion::PosedMotion;
 use crate::ui::files::{self, PatternImport, PoseFile, Purpose, RawBody};
-use crate::ui::language::{say, tr};
+use crate::ui::language::{said, say, tr};
 use crate::ui::maps::Opening;
+use crate::ui::scenery::worn::WornFiles;
 use crate::ui::shell::dialogs::{Dialog, NativeDialog};
 use crate::ui::shell::drop_overlay::Dropped;
 
@@ -60,11 +62,7 @@ impl App {
             Purpose::Compare => self.compare_with(ctx, path),
             Purpose::Environment => self.choose_environment(ctx, path),
             Purpose::Sizes => self.take_sizes(path),
-            Purpose::Export => {
-                let shown = self.shown();
-                files::export(path, shown.snapshot(), &shown.document().pattern, shown.document())
-                    .map(|()| self.wrote(path))
-            }
+            Purpose::Export => self.export(path),
             Purpose::ExportPattern => self.export_pattern(path),
             Purpose::Recording => {
                 let text = self.recording();
@@ -115,7 +113,7 @@ impl App {
         let moved = self.session.brought(&pattern);
         if !moved.placements.is_empty() {
             moved.carry_out(Arc::make_mut(&mut pattern));
-            let how = moved.words.join(", ");
+            let how = said(&Words::joined(moved.words, ", "));
             notes.push(say!("Its pieces were placed for another body: {how}", how));
         }
         Command::ReplacePattern { name, pattern, marks }
@@ -130,14 +128,37 @@ impl App {
         }
         let edits = vec![PatternEdit::PlaceInSpace { placements }];
         self.apply(Command::EditPattern { edits, anew: false });
-        self.messages.tell(sentence(&words.join(", ")));
+        self.messages.tell(sentence(&said(&Words::joined(words, ", "))));
+    }
+
+    /// Writes the dressed garment; asks first where files that belong beside it are there already.
+    fn export(&mut self, path: &Path) -> Result<(), String> {
+        let shown = self.shown();
+        let written = files::exported(path, shown.snapshot(), &shown.document().pattern, shown.document())?;
+        let names = files::there_beside(&written.files);
+        if names.is_empty() {
+            return self.write_export(&written);
+        }
+        self.dialog = Some(Dialog::Beside { written: Box::new(written), names });
+        Ok(())
+    }
+
+    pub(in crate::ui) fn write_export(&mut self, written: &WornFiles) -> Result<(), String> {
+        files::write_together(&written.files)?;
+        if let Some((path, _)) = written.files.first() {
+            self.wrote(path);
+        }
+        if !written.left_out.is_empty() {
+            self.messages.tell(written.left_out.join("; "));
+        }
+        Ok(())
     }
 
     pub(in crate::ui) fn export_pattern(&mut self, path: &Path) -> Result<(), String> {
         let left_out = files::export_pattern(path, &self.session.document().pattern, self.preferences.paper)?;
         self.wrote(path);
         if !left_out.is_empty() {
-            self.messages.tell(left_out.join("; "));
+            self.messages.tell(left_out.iter().map(said).collect::<Vec<_>>().join("; "));
         }
         Ok(())
     }

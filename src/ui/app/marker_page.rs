@@ -7,6 +7,7 @@ use std::time::Duration;
 
 use egui::{Button, Grid, Id, Modal, RichText, ScrollArea};
 
+use crate::geometry::words::Words;
 use crate::io::pdf::Paper;
 use crate::marker::nest::Watch;
 use crate::marker::{FinishedMarker, MOST_PIECES, MarkerError, MarkerFormat, Order};
@@ -15,7 +16,7 @@ use crate::ui::app::App;
 use crate::ui::app::marker_preview::Preview;
 use crate::ui::files::{self, Purpose};
 use crate::ui::language::fields::drag_value;
-use crate::ui::language::{number, say, tr};
+use crate::ui::language::{number, said, say, tr};
 use crate::ui::look::theme::Palette;
 use crate::ui::panels::fields::length_field;
 use crate::ui::preferences::units::LengthUnit;
@@ -113,7 +114,7 @@ impl MarkerPage {
                 self.error = Some(tr("The marker could not be made").to_owned());
             }
             Ok(Err(why)) => {
-                let words = why.words(&|metres| unit.text(metres));
+                let words = said(&why.words_by(&|metres| Words::plain(unit.text(metres))));
                 (self.error, self.shown) = (Some(say!("There is no marker: {words}", words)), None);
             }
             Ok(Ok(made)) => {
@@ -270,11 +271,12 @@ impl MarkerPage {
                 ui.add(egui::Label::new(RichText::new(words).color(look.palette.warning)).wrap());
             } else if let [first, rest @ ..] = &report.problems[..] {
                 let words = match rest.len() {
-                    0 => first.clone(),
-                    more => say!("{problem} (and {more} more)", problem = first, more),
+                    0 => said(first),
+                    more => say!("{problem} (and {more} more)", problem = said(first), more),
                 };
                 let words = RichText::new(words).color(look.palette.warning);
-                ui.add(egui::Label::new(words).wrap()).on_hover_text(report.problems.join("\n"));
+                ui.add(egui::Label::new(words).wrap())
+                    .on_hover_text(report.problems.iter().map(said).collect::<Vec<_>>().join("\n"));
             }
         });
     }

@@ -52,7 +52,7 @@ use crate::ui::body_pane::ghosts::Ghosts;
 use crate::ui::files::recent::Recent;
 use crate::ui::files::{self, Purpose};
 use crate::ui::language::choice::{self, Languages};
-use crate::ui::language::{self, say, tr};
+use crate::ui::language::{self, said, say, tr};
 use crate::ui::look::scheme::Scheme;
 use crate::ui::look::theme::{self, Palette};
 use crate::ui::panels::marks::MarksPanel;
@@ -375,7 +375,7 @@ impl App {
         for notice in self.session.update() {
             match notice {
                 Notice::AtRest { .. } => {}
-                Notice::Failed { words, .. } => self.messages.error(words),
+                Notice::Failed { words, .. } => self.messages.error(said(&words)),
                 Notice::HistoryShortened => {
                     self.messages.tell(tr("Older steps can no longer be undone, to save memory."));
                 }
@@ -416,7 +416,7 @@ impl App {
             Ok(()) if is_wrap => self.wrap_seq = Some(self.session.last_seq()),
             Ok(()) if is_body => self.tell_lost_marks(),
             Ok(()) => {}
-            Err(why) => self.messages.error(sentence(&why.0)),
+            Err(why) => self.messages.error(sentence(&said(&why.0))),
         }
     }
 
@@ -432,7 +432,7 @@ impl App {
         let gesture = *self.drag.get_or_insert_with(|| self.session.begin_gesture());
         // The drag may go on to a place where the command is possible, so this is no error that stays on the screen.
         if let Err(why) = self.session.apply(command, gesture) {
-            self.messages.tell(sentence(&why.0));
+            self.messages.tell(sentence(&said(&why.0)));
         }
     }
 
@@ -480,6 +480,12 @@ impl App {
             Answer::File(purpose, path) => self.file(ctx, purpose, &path),
             Answer::Restore(left) => self.restore(ctx, *left),
             Answer::SaveAs => self.ask_file(Purpose::Save),
+            Answer::Elsewhere(purpose) => self.ask_file(purpose),
+            Answer::Export(written) => {
+                if let Err(words) = self.write_export(&written) {
+                    self.messages.error(words);
+                }
+            }
             Answer::Replace(path) => self.save_over(ctx, &path),
             Answer::Overwrite(path) => {
                 self.on_disk = None;

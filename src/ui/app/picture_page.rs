@@ -5,11 +5,12 @@ use std::path::Path;
 use egui::{ComboBox, Id, Modal};
 use glam::UVec2;
 
-use crate::render::{Camera, FinePicture, Fineness, Legend, Look, Projection, RenderError, View, png};
+use crate::render::{Camera, FinePicture, Fineness, Legend, Look, Projection, View, png};
 use crate::ui::actions::{Action, VIEWS};
 use crate::ui::app::App;
 use crate::ui::files::{self, Purpose};
 use crate::ui::language::fields::drag_value;
+use crate::ui::language::pictures::no_picture;
 use crate::ui::language::{say, tr};
 use crate::ui::look::theme::{self, Palette};
 use crate::ui::scenery::portrait::{Extras, portrait};
@@ -277,10 +278,6 @@ impl PlannedPicture {
 
 fn no_adapter() -> String {
     tr("There is no graphics adapter to draw with").to_owned()
-}
-
-fn no_picture(why: &RenderError) -> String {
-    say!("There is no picture: {why}", why)
 }
 
 /// The camera that shows in a picture of `size` all that `camera` shows at the width-to-height ratio `aspect`.

@@ -2,12 +2,13 @@
 
 use std::path::{Path, PathBuf};
 
-use crate::pack::NO_ADAPTER;
+use crate::pack::no_adapter;
 use crate::ui::app::App;
 use crate::ui::app::turn::progress_ui;
 use crate::ui::files;
 use crate::ui::fit_page::FitPage;
-use crate::ui::language::{say, tr};
+use crate::ui::language::pictures::no_picture;
+use crate::ui::language::tr;
 use crate::ui::look::theme::Palette;
 
 /// A fit report in the making.
@@ -36,10 +37,10 @@ impl App {
                     .page
                     .draw_next(|scene, camera, look, size| graphics.photograph(scene, camera, look, size));
                 if let Err(why) = drawn {
-                    return self.messages.error(say!("There is no picture: {why}", why));
+                    return self.messages.error(no_picture(&why));
                 }
             }
-            None => report.page.leave_pictures_out(NO_ADAPTER.to_owned()),
+            None => report.page.leave_pictures_out(no_adapter()),
         }
         let (done, count) = report.page.progress();
         if done == count || self.scene_pane.graphics.is_none() {

@@ -3,13 +3,15 @@
 use std::path::{Path, PathBuf};
 use std::sync::mpsc::{Receiver, TryRecvError, channel};
 
+use crate::geometry::words::{Words, words};
 use crate::language::{Table, shown, shown_in};
-use crate::pack::{NO_ADAPTER, Pack, Pictures, Source, Wish, write};
+use crate::pack::{Pack, Pictures, Source, Wish, no_adapter, write};
 use crate::session::{Document, Outfit};
 use crate::ui::app::App;
 use crate::ui::files;
 use crate::ui::language::choice::Language;
-use crate::ui::language::{code, say, tr};
+use crate::ui::language::pictures::no_picture;
+use crate::ui::language::{code, said, say, tr};
 use crate::ui::scenery::front_and_back::front_and_back;
 use crate::ui::shell::dialogs::Dialog;
 
@@ -18,7 +20,7 @@ use crate::ui::shell::dialogs::Dialog;
 pub struct TechPack {
     path: PathBuf,
     /// The file, or why there is none.
-    coming: Receiver<Result<Vec<u8>, String>>,
+    coming: Receiver<Result<Vec<u8>, Words>>,
 }
 
 impl App {
@@ -62,16 +64,16 @@ impl App {
 
     fn pictures_of_pack(&mut self, is_dressed: bool) -> Result<Pictures, String> {
         if !is_dressed {
-            return Ok(Pictures::LeftOut("it is not dressed".to_owned()));
+            return Ok(Pictures::LeftOut(words!("it is not dressed")));
         }
         let Some(graphics) = &mut self.scene_pane.graphics else {
-            return Ok(Pictures::LeftOut(NO_ADAPTER.to_owned()));
+            return Ok(Pictures::LeftOut(no_adapter()));
         };
         let drawn = front_and_back(&self.session, &mut self.scenery, |scene, camera, look, size| {
             graphics.photograph(scene, camera, look, size)
         });
         let pictures = drawn.unwrap_or_else(|| Ok(Vec::new()));
-        pictures.map(Pictures::Drawn).map_err(|why| say!("There is no picture: {why}", why))
+        pictures.map(Pictures::Drawn).map_err(|why| no_picture(&why))
     }
 
     /// Writes the tech pack once it is made.
@@ -80,7 +82,7 @@ impl App {
         let made = match pack.coming.try_recv() {
             Err(TryRecvError::Empty) => return self.shell.tech_pack = Some(pack),
             Err(TryRecvError::Disconnected) => Err(tr("The tech pack could not be made").to_owned()),
-            Ok(made) => made.map_err(|why| say!("There is no tech pack: {why}", why)),
+            Ok(made) => made.map_err(|why| say!("There is no tech pack: {why}", why = said(&why))),
         };
         match made.and_then(|bytes| files::write(&pack.path, &bytes)) {
             Ok(()) => self.wrote(&pack.path),
@@ -96,8 +98,7 @@ fn made(
     outfit: Option<&Outfit>,
     pictures: &Pictures,
     table: Option<&'static Table>,
-) -> Result<Vec<u8>, String> {
-    let pack =
-        Pack::of(Source { name, document, outfit }, &Wish::default()).map_err(|why| why.to_string())?;
-    shown_in(table, || write(&pack, &document.pattern, pictures)).map_err(|why| why.to_string())
+) -> Result<Vec<u8>, Words> {
+    let pack = Pack::of(Source { name, document, outfit }, &Wish::default()).map_err(|why| why.words())?;
+    shown_in(table, || write(&pack, &document.pattern, pictures)).map_err(|why| why.words())
 }

@@ -11,6 +11,7 @@ use crate::geometry::ids::MarkId;
 use crate::pattern::activity::Activity;
 use crate::render::{Look, Quality};
 use crate::session::Pin;
+use crate::ui::language::pictures::reason;
 use crate::ui::language::tr;
 use crate::ui::scenery::fabric_looks::looks_of;
 use crate::ui::scenery::ring::ring;
@@ -99,7 +100,7 @@ impl ScenePane {
                 let whole = Rect::from_min_max(Pos2::ZERO, Pos2::new(1.0, 1.0));
                 painter.image(texture, pane, whole, Color32::WHITE);
             }
-            Err(error) => tell(&painter, &error.to_string(), seen.palette.error),
+            Err(error) => tell(&painter, &reason(&error), seen.palette.error),
         }
         if draft {
             // The finished picture follows as soon as nothing moves.

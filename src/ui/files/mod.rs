@@ -5,7 +5,7 @@ pub(in crate::ui) mod posed_motion;
 pub(in crate::ui) mod recent;
 pub(in crate::ui) mod thumbnails;
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use glam::DVec3;
@@ -13,7 +13,7 @@ use glam::DVec3;
 use crate::body::pose::motion::Clip;
 use crate::body::{Unit, UpAxis, guess_unit, import};
 use crate::geometry::mesh::TriMesh;
-use crate::io::atlas::AtlasLayout;
+use crate::geometry::words::Words;
 use crate::io::body_file;
 use crate::io::pattern_file::PatternFileError;
 use crate::io::pattern_formats::{self, PatternFormat, endings};
@@ -30,10 +30,9 @@ use crate::session::{
     AnimatedFile, Animations, BodyChoice, Command, Document, ImageFile, Project, project_file, whole_file,
 };
 use crate::sim::Snapshot;
-use crate::ui::language::{say, tr};
+use crate::ui::language::{said, say, tr};
 use crate::ui::scenery::environment::light_of;
-use crate::ui::scenery::fabric_textures::USUAL_SIDE;
-use crate::ui::scenery::worn::{self, Worn};
+use crate::ui::scenery::worn::{self, Worn, WornFiles, WornOptions};
 
 /// Extensions of the pattern formats that can be written.
 const WRITTEN_ENDINGS: [&str; 4] = {
@@ -244,7 +243,7 @@ fn rules_beside(path: &Path) -> Result<Option<Vec<u8>>, String> {
 }
 
 /// Writes `pattern` in the format of the file's extension; `paper` is for PDF. Returns what the format cannot hold.
-pub fn export_pattern(path: &Path, pattern: &Pattern, paper: Paper) -> Result<Vec<String>, String> {
+pub fn export_pattern(path: &Path, pattern: &Pattern, paper: Paper) -> Result<Vec<Words>, String> {
     let ending = path.extension().unwrap_or_default().to_string_lossy();
     let Some(format) = PatternFormat::of_ending(&ending) else {
         let words = say!("the name must end in {endings}", endings = endings(PatternFormat::ALL));
@@ -383,7 +382,7 @@ fn imported(mut raw: RawBody) -> Result<(BodyChoice, Vec<String>), String> {
     raw.up.set_upright(&mut raw.mesh);
     let imported = import(raw.mesh, raw.unit);
     if !imported.is_usable() {
-        let faults: Vec<String> = imported.problems.into_iter().map(|p| p.words).collect();
+        let faults: Vec<String> = imported.problems.iter().map(|p| said(&p.words)).collect();
         let why = faults.join("; ");
         return Err(say!("{name} cannot be used as a body: {why}", name = raw.name, why));
     }
@@ -404,26 +403,34 @@ pub fn read_environment(path: &Path) -> Result<Harmonics, String> {
     light_of(&read(path)?).map_err(|why| in_words(path, Deed::Read, why))
 }
 
-/// Writes the dressed garment of `snapshot` with its textures: as .obj with files beside it, as .glb or USD together with its
-/// body.
-/// `pattern` gives the texture coordinates.
-pub fn export(
+/// The files of the dressed garment of `snapshot` with its trims and textures: as .obj with files beside it, as .glb or USD
+/// together with its body. `pattern` gives the texture coordinates.
+pub fn exported(
     path: &Path,
     snapshot: &Snapshot,
     pattern: &Pattern,
     document: &Document,
-) -> Result<(), String> {
+) -> Result<WornFiles, String> {
     let Some((garment, cloth)) = snapshot.drawn().filter(|_| snapshot.is_dressed()) else {
         return Err(tr("There is no cloth on the body to be written").to_owned());
     };
     let worn = Worn { garment, cloth, pattern, document };
     let body = snapshot.body.as_ref().map(|b| &b.mesh);
-    let files = worn.files(USUAL_SIDE, AtlasLayout::Pattern, body, path);
-    let files = files.map_err(|e| in_words(path, Deed::Write, e))?;
-    match &files[..] {
+    worn.files(WornOptions::default(), body, path).map_err(|e| in_words(path, Deed::Write, e))
+}
+
+/// Writes files, all or none of them.
+pub fn write_together(files: &[(PathBuf, Vec<u8>)]) -> Result<(), String> {
+    match files {
         [(path, bytes)] => write(path, bytes),
-        _ => whole_file::write_together(&files).map_err(|(path, e)| in_words(&path, Deed::Write, e)),
+        _ => whole_file::write_together(files).map_err(|(path, e)| in_words(&path, Deed::Write, e)),
     }
+}
+
+/// The names of the files beside the first of `files` that are there already and would be lost.
+pub fn there_beside(files: &[(PathBuf, Vec<u8>)]) -> Vec<String> {
+    let others = files.iter().skip(1).filter(|(path, _)| path.exists());
+    others.map(|(path, _)| path.file_name().unwrap_or_default().to_string_lossy().into_owned()).collect()
 }
 
 /// The project of a sample on the mannequin that it is made for.
@@ -443,7 +450,7 @@ pub fn read(path: &Path) -> Result<Vec<u8>, String> {
 
 /// The next version of a file name that does not exist yet: "shirt-2.toile" for "shirt.toile", "shirt-8.toile" for
 /// "shirt-7.toile".
-pub fn next_version(path: &Path) -> std::path::PathBuf {
+pub fn next_version(path: &Path) -> PathBuf {
     let name = stem(path);
     let (base, number) = match name.rsplit_once('-') {
         Some((base, digits)) if !base.is_empty() && digits.len() < 9 => match digits.parse::<u32>() {

@@ -4,7 +4,7 @@ use crate::body::UpAxis;
 use crate::body::mannequin::mannequin;
 use crate::body::pose::motion::{Clip, Retarget};
 use crate::session::BodyChoice;
-use crate::ui::language::{say, tr};
+use crate::ui::language::{said, say, tr};
 
 /// A motion retargeted to the mannequin; its joint angles hold for mannequins of all measurements.
 #[derive(Debug)]
@@ -21,10 +21,10 @@ impl PosedMotion {
     /// message.
     pub fn new(name: String, mut clip: Clip, body: &BodyChoice) -> Result<Self, String> {
         let measurements = body.measurements().ok_or(tr("a BVH motion is for the mannequin"))?;
-        let figure = mannequin(&measurements).map_err(|e| e.to_string())?;
+        let figure = mannequin(&measurements).map_err(|why| said(&why.words()))?;
         let up = clip.likely_up();
         clip.set_upright(up);
-        let retarget = Retarget::new(&clip, &figure.skeleton)?;
+        let retarget = Retarget::new(&clip, &figure.skeleton).map_err(|why| said(&why))?;
         Ok(Self { name, clip, retarget, up })
     }
 

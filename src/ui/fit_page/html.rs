@@ -3,20 +3,21 @@
 use maud::{DOCTYPE, Markup, PreEscaped, html};
 
 use crate::fit::MapKind;
+use crate::geometry::words::Words;
 use crate::ui::fit_page::drawing::drawing;
 use crate::ui::fit_page::facts::{Facts, MapFacts};
 use crate::ui::fit_page::legend::{legend, minus};
 use crate::ui::fit_page::pictures::Picture;
 use crate::ui::fit_page::tables;
-use crate::ui::fit_page::words::{fault_words, place_words, tight_words};
-use crate::ui::language::{code, counted, number, say, tr};
+use crate::ui::fit_page::words::tight_words;
+use crate::ui::language::{code, counted, number, said, say, tr};
 
 const STYLE: &str = include_str!("style.css");
 /// Content security policy: the page loads nothing, and its style is part of it.
 const POLICY: &str = include_str!("policy.txt");
 
 /// The HTML page. `left_out` is the reason why it has no pictures.
-pub fn page(facts: &Facts, pictures: &[Picture], left_out: Option<&str>) -> String {
+pub fn page(facts: &Facts, pictures: &[Picture], left_out: Option<&Words>) -> String {
     let title = say!("{name}: fit report", name = facts.name);
     html! {
         (DOCTYPE)
@@ -33,7 +34,7 @@ pub fn page(facts: &Facts, pictures: &[Picture], left_out: Option<&str>) -> Stri
                 (header(facts))
                 (verdict(facts))
                 @if let Some(why) = left_out {
-                    p.note { (say!("The pictures are left out: {why}.", why = tr(why))) }
+                    p.note { (say!("The pictures are left out: {why}.", why = said(why))) }
                 }
                 (views(pictures))
                 (figures(facts))
@@ -79,7 +80,7 @@ fn verdict(facts: &Facts) -> Markup {
             } @else {
                 p { strong { (tr("Not right yet.")) } }
                 ul { @for problem in &facts.problems {
-                    li { strong { (place_words(&problem.place)) } ": " (fault_words(&problem.words)) }
+                    li { strong { (said(&problem.place)) } ": " (said(&problem.words)) }
                 } }
             }
             @if let Some(tight) = &facts.tight { p { (say!("Tightest: {place}", place = tight_words(tight))) } }

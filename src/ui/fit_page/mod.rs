@@ -9,6 +9,7 @@ mod pictures;
 mod tables;
 pub(in crate::ui) mod words;
 
+use crate::geometry::words::Words;
 use crate::render::{Camera, Look, RenderError, Scene};
 use crate::session::Session;
 use crate::ui::fit_page::facts::Facts;
@@ -24,7 +25,7 @@ pub struct FitPage {
     /// The pictures drawn so far, in the order of `shots`.
     pictures: Vec<Picture>,
     scenery: Scenery,
-    left_out: Option<String>,
+    left_out: Option<Words>,
 }
 
 impl FitPage {
@@ -51,14 +52,14 @@ impl FitPage {
         Ok(())
     }
 
-    /// Leaves all pictures out; the page states `why`, which is English here, in its own language.
-    pub fn leave_pictures_out(&mut self, why: String) {
+    /// Leaves all pictures out; the page states `why` in its own language.
+    pub fn leave_pictures_out(&mut self, why: Words) {
         self.pictures.clear();
         self.left_out = Some(why);
     }
 
     /// The self-contained HTML page, in the language that is shown.
     pub fn html(&self) -> String {
-        html::page(&self.facts, &self.pictures, self.left_out.as_deref())
+        html::page(&self.facts, &self.pictures, self.left_out.as_ref())
     }
 }

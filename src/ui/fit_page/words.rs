@@ -1,61 +1,7 @@
 //! What a measured garment says of itself, in the language that is shown: its faults, tight places, and what is cut too small.
 
 use crate::fit::{Smaller, Tight};
-use crate::language::sentences::translated_by;
-use crate::ui::language::{decimal_signs, number, say, signed, tr, translated};
-
-/// Sentences, and parts of them between semicolons, with which faults are told; see `fit::faults` and `sim::faults`.
-const FAULTS: &[&str] = &[
-    "{n} vertices have no finite position: the simulation broke",
-    "no cloth lies on the body: the wrap found no pair of marks to begin with",
-    "it still lies in the pattern plane: sew it to the others or give it a pair of marks",
-    "{n} of its triangles never reached the body",
-    "{n} of {count} seams are open: {names}",
-    "the widest gap is {mm} mm",
-    "it lies in {n} separate parts",
-    "its seams should make {count}",
-    "{n} fastened buttons do not close",
-    "{n} vertices and {faces} triangles of the cloth are inside the body, up to {mm} mm",
-    "cloth and skin cut through each other in {n} places",
-    "{n} triangles lie wrong side out",
-    "the body does not pass through it: the cloth lies on one side of the limb, or a seam has a hole",
-    "the cloth passes through itself in {n} places",
-    "{n} triangles have shrunk to nothing",
-    "{n} edges are stretched to more than twice their length, by up to {percent} %: the cloth or a seam would have torn",
-    "its worst hundredth is strained by {percent} % and more: it does not fit this body",
-    "the pattern is {cm} cm smaller than the body round the {place} ({pattern} for {body} cm)",
-    "it has slid down by {cm} cm from where it was placed: nothing holds it",
-    "nearest mark: {marks}",
-    "nearest marks: {marks}",
-];
-
-/// The places of faults.
-const PLACES: &[&str] =
-    &["garment", "seams", "body", "fastenings", "piece {name}", "opening of {cm} cm, {m} m above the ground"];
-
-/// What is wrong, from its English words. A part that is not known stays English.
-pub fn fault_words(english: &str) -> String {
-    let parts = english.split("; ").map(|part| known_fault(part).unwrap_or_else(|| part.to_owned()));
-    parts.collect::<Vec<_>>().join("; ")
-}
-
-fn known_fault(part: &str) -> Option<String> {
-    translated_by(FAULTS, part, value)
-}
-
-/// Where it is wrong, from its English words.
-pub fn place_words(english: &str) -> String {
-    translated_by(PLACES, english, value).unwrap_or_else(|| english.to_owned())
-}
-
-/// A value of a fault: names stay as they are, places of the body are translated, numbers have the decimal sign of the language.
-fn value(name: &str, english: &str) -> String {
-    match name {
-        "name" | "names" => english.to_owned(),
-        "place" => tr(english).to_owned(),
-        _ => decimal_signs(english),
-    }
-}
+use crate::ui::language::{number, say, signed, tr, translated};
 
 /// A tight place with its strain: "front near armpit left, +5.0 %".
 pub fn tight_words(tight: &Tight) -> String {
@@ -86,7 +32,9 @@ pub fn smaller_words(smaller: &Smaller) -> String {
 mod tests {
     use super::*;
     use crate::fit::{Opening, Penetration, PieceChange, Report, Seams, Strain, faults};
-    use crate::language::{Table, shown_in};
+    use crate::geometry::ids::SeamId;
+    use crate::geometry::words::words;
+    use crate::language::{Table, said, shown_in};
 
     /// A garment with every fault at once.
     fn faulty() -> Report {
@@ -102,7 +50,7 @@ mod tests {
             not_finite_vertices: 1,
             pieces: vec![piece("front; left", 0), piece("1.5 back", 7)],
             seams: Seams { closed: 1, open: 2, max_gap: 0.0125 },
-            open_seams: vec!["seam 1".to_owned(), "seam 2".to_owned()],
+            open_seams: [1, 2].map(|n| SeamId(n).into()).into(),
             pieces_in_space: 2,
             pieces_expected: 1,
             penetration: Penetration { vertices: 3, faces: 4, max_depth: 0.0031 },
@@ -126,27 +74,22 @@ mod tests {
     fn every_fault_is_told_in_german() {
         let mut all: Vec<_> = faults(&faulty(), true).into_iter().map(|(problem, _)| problem).collect();
         assert!(all.len() >= 14, "{all:#?}");
-        let none = faults(&Report::default(), false);
-        all.extend(none.into_iter().map(|(problem, _)| problem));
-        for problem in &mut all {
-            let english = [problem.words.clone(), problem.place.clone()];
-            assert_eq!(
-                [fault_words(&english[0]), place_words(&english[1])],
-                english,
-                "English stays as it is"
-            );
-            problem.words += "; nearest marks: 1 (+3.5 %), 2 (-1.0 %)";
-        }
+        all.extend(faults(&Report::default(), false).into_iter().map(|(problem, _)| problem));
+        let english: Vec<[String; 2]> = all.iter().map(|p| [said(&p.words), said(&p.place)]).collect();
         shown_in(Table::german(), || {
-            for problem in &all {
-                for part in problem.words.split("; ") {
-                    let told = known_fault(part).unwrap_or_else(|| panic!("not in German: {part}"));
-                    assert!(told != part && !told.contains(".5") && !told.contains("the "), "{told}");
-                }
-                assert_ne!(place_words(&problem.place), problem.place);
+            for (problem, english) in all.iter().zip(english) {
+                assert_eq!(
+                    english,
+                    [problem.words.as_str(), problem.place.as_str()],
+                    "English stays as it is"
+                );
+                let german = said(&problem.words);
+                assert!(german != english[0] && !german.contains("the "), "{german}");
+                assert!(!german.contains(".5") && !german.contains("0.1 mm"), "{german}");
+                assert_ne!(said(&problem.place), english[1]);
             }
-            assert_eq!(place_words("piece 1.5 back"), "Teil 1.5 back", "names are no numbers");
-            assert_eq!(fault_words("something new"), "something new");
+            let place = words!("piece {name}", name = "1.5 back");
+            assert_eq!(said(&place), "Teil 1.5 back", "names are no numbers");
         });
     }
 

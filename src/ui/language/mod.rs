@@ -4,8 +4,10 @@
 pub(crate) mod choice;
 pub(in crate::ui) mod fields;
 pub(in crate::ui) mod keys;
+pub(in crate::ui) mod pictures;
+#[cfg(test)]
+mod reasons;
 
 pub(in crate::ui) use crate::language::{
-    code, counted, decimal_sign, decimal_signs, localised, number, parsed, say, short, show, signed, tr,
-    translated,
+    code, counted, decimal_sign, localised, number, parsed, said, say, short, show, signed, tr, translated,
 };

@@ -7,11 +7,12 @@ use glam::{DVec3, Vec3};
 
 use crate::cloth::Garment;
 use crate::fit::{Map, MapKind, Matching};
+use crate::geometry::words::Words;
 use crate::render::{Mesh, Palette};
 use crate::session::{Outfit, Session};
 use crate::sim::{Runner, Simulation};
 use crate::ui::files;
-use crate::ui::language::say;
+use crate::ui::language::{said, say};
 use crate::ui::scenery::body_look::BodyLook;
 use crate::ui::scenery::mapped::in_colours;
 use crate::ui::scenery::scene::{body_mesh, cloth_mesh};
@@ -42,7 +43,7 @@ pub enum Unlike {
     /// No cloth is on its body.
     NoCloth(String),
     /// The pieces differ, and how.
-    Pieces(String, String),
+    Pieces(String, Words),
 }
 
 impl Unlike {
@@ -52,7 +53,7 @@ impl Unlike {
             Self::Unread(words) => words,
             Self::NoCloth(file) => say!("{file}: there is no cloth on its body", file),
             Self::Pieces(file, why) => {
-                say!("{file}: it has not the pieces of this pattern: {why}", file, why)
+                say!("{file}: it has not the pieces of this pattern: {why}", file, why = said(&why))
             }
         }
     }
@@ -75,8 +76,8 @@ impl Comparison {
         session.update();
         let outfit = Outfit::of(session.snapshot(), &session.document().fabrics);
         let outfit = outfit.ok_or_else(|| Unlike::NoCloth(file()))?;
-        let matching = Matching::new(outfit.worn(), present.worn())
-            .map_err(|why| Unlike::Pieces(file(), why.to_string()))?;
+        let matching =
+            Matching::new(outfit.worn(), present.worn()).map_err(|why| Unlike::Pieces(file(), why.0))?;
         let name = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
         let matched = Some((Arc::clone(&present.garment), Ok(matching)));
         Ok(Self { name, difference: false, outfit, matched, map: None, drawn: None })

@@ -8,9 +8,8 @@ use crate::session::{Command, Document, Settings};
 use crate::sim::Fault;
 use crate::ui::actions::Tool;
 use crate::ui::actions::asks::{Ask, Asks};
-use crate::ui::fit_page::words::{fault_words, place_words};
 use crate::ui::language::fields::slider;
-use crate::ui::language::{say, tr};
+use crate::ui::language::{said, say, tr};
 use crate::ui::look::theme::Palette;
 use crate::ui::panels::artwork::artwork_ui;
 use crate::ui::panels::context::{PanelContext, problem_row};
@@ -207,11 +206,11 @@ fn problems_ui(ui: &mut egui::Ui, told: &PanelContext<'_>, asks: &mut Asks) {
     }
     for problem in told.lost.iter().chain(told.problems) {
         let ink = if problem.kind.is_note() { palette.warning } else { palette.error };
-        problem_row(ui, ink, &format!("{}: {}", problem.place, problem.words), None, asks);
+        problem_row(ui, ink, &said(&problem.in_words()), None, asks);
     }
     for Fault { problem, marks } in told.verdict {
         let numbers: Vec<usize> = marks.iter().map(|m| m.number).collect();
-        let words = format!("{}: {}", place_words(&problem.place), fault_words(&problem.words));
+        let words = said(&problem.in_words());
         let shows = (Ask::ShowMarks(numbers), tr("Show the marks concerned"));
         let shows = Some(shows).filter(|_| !marks.is_empty());
         problem_row(ui, palette.error, &words, shows, asks);

@@ -10,7 +10,7 @@ use crate::io::sizes::{self, Size};
 use crate::session::{BodyChoice, Command};
 use crate::ui::actions::Action;
 use crate::ui::actions::asks::{Ask, Asks};
-use crate::ui::language::tr;
+use crate::ui::language::{said, tr};
 use crate::ui::panels::context::PanelContext;
 
 /// Width of the list, points.
@@ -58,16 +58,16 @@ impl SizePanel {
 }
 
 fn size_ui(ui: &mut egui::Ui, size: &Size, is_taken: bool, body: &BodyChoice, asks: &mut Asks) {
-    let checked = size.checked();
+    let checked = size.measurements.check();
     let button = ui.add_enabled(checked.is_ok(), Button::selectable(is_taken, &size.name));
     match checked {
-        Ok(measurements) => {
+        Ok(()) => {
             let words = tr("The mannequin is built to this size; marks and garment go along");
             if button.on_hover_text(words).clicked() && !is_taken {
-                asks.push(built_to(measurements, body));
+                asks.push(built_to(size.measurements, body));
             }
         }
-        Err(why) => _ = button.on_disabled_hover_text(why.to_string()),
+        Err(why) => _ = button.on_disabled_hover_text(said(&why.words())),
     }
 }
 

@@ -9,7 +9,7 @@ use crate::pattern::grading::READY_SIZES;
 use crate::pattern::{GradeRule, Piece, RulePoint, SizeRun};
 use crate::session::Command;
 use crate::ui::actions::asks::{Ask, Asks};
-use crate::ui::language::{say, tr};
+use crate::ui::language::{said, say, tr};
 use crate::ui::panels::context::{PanelContext, problem_row};
 use crate::ui::panels::fields::length_field;
 use crate::ui::pattern_pane::line_points::points_of;
@@ -261,7 +261,7 @@ fn typed(text: &str, old: &SizeRun) -> Result<SizeRun, String> {
     let base = names.iter().position(|name| name == old.base_name());
     let base = base.unwrap_or_else(|| old.base.min(names.len() - 1));
     let sizes = SizeRun { names, base };
-    sizes.problem().map_or(Ok(sizes), Err)
+    sizes.problem().map_or(Ok(sizes), |why| Err(said(&why)))
 }
 
 /// A list of the size runs that are offered.
@@ -310,7 +310,7 @@ fn shown_ui(ui: &mut egui::Ui, told: &PanelContext<'_>, asks: &mut Asks) {
 /// What cannot be cut, and seams whose sides grow apart.
 fn problems_ui(ui: &mut egui::Ui, told: &PanelContext<'_>, asks: &mut Asks) {
     for problem in &told.nests.problems {
-        let words = format!("{}: {}", problem.place, problem.words);
+        let words = said(&problem.in_words());
         problem_row(ui, told.palette.error, &words, None, asks);
     }
     let pattern = &*told.document.pattern;

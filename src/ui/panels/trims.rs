@@ -1,11 +1,11 @@
-//! What is worked along the selected edges and lines: fold lines, elastic, topstitching, hems, piping, buttons.
+//! What is worked along the selected edges and lines: fold lines, elastic, topstitching, hems, piping, wrinkles, buttons.
 
 use egui::{Grid, RichText};
 
 use crate::pattern::edit::{PatternEdit, TrimLine};
 use crate::pattern::stitches::PLAIN;
 use crate::pattern::trims::{ELASTIC_RATIOS, ELASTIC_TENSIONS, PIPING_RADII};
-use crate::pattern::{Elastic, Fold, Hem, Piping, Topstitch, Trims};
+use crate::pattern::{Elastic, Fold, Hem, Piping, Topstitch, Trims, Wrinkle};
 use crate::session::Command;
 use crate::ui::actions::asks::{Ask, Asks};
 use crate::ui::language::tr;
@@ -46,6 +46,7 @@ pub fn trims_ui(ui: &mut egui::Ui, told: &PanelContext<'_>, asks: &mut Asks) {
     topstitch_ui(ui, told, &lines, &trims, asks);
     hem_ui(ui, told, &lines, &trims, asks);
     piping_ui(ui, told, &lines, &trims, asks);
+    wrinkle_ui(ui, told, &lines, &trims, asks);
     buttons_ui(ui, told, &lines, asks);
 }
 
@@ -133,6 +134,38 @@ fn piping_ui(ui: &mut egui::Ui, told: &PanelContext<'_>, lines: &[TrimLine], tri
         colour_menu(ui, tr("Colour of the piping"), piping.colour, asks, |colour| {
             dragged(edit(Some(Piping { colour, ..piping })))
         });
+    });
+}
+
+fn wrinkle_ui(
+    ui: &mut egui::Ui,
+    told: &PanelContext<'_>,
+    lines: &[TrimLine],
+    trims: &Trims,
+    asks: &mut Asks,
+) {
+    if !lines.iter().all(|line| matches!(line, TrimLine::Line { .. })) {
+        return;
+    }
+    let set = |wrinkle: Option<Wrinkle>| ask(PatternEdit::SetWrinkle { lines: lines.to_vec(), wrinkle });
+    let mut on = trims.wrinkle.is_some();
+    let tip = tr("Draped cloth rises to a soft ridge along the line, or sinks to a valley, as at an elbow");
+    if ui.checkbox(&mut on, tr("Wrinkle")).on_hover_text(tip).changed() {
+        asks.push(set(on.then_some(Wrinkle::USUAL)));
+    }
+    let Some(wrinkle) = trims.wrinkle else { return };
+    ui.horizontal(|ui| {
+        let label =
+            weak(ui, told, tr("Width")).on_hover_text(tr("Of the wrinkle across the line: 5 to 100 mm"));
+        if let Some(new) = length_field(ui, "wrinkle width", &label, wrinkle.width, told.now.unit) {
+            asks.push(set(Some(wrinkle.as_wide_as(new))));
+        }
+        let label = weak(ui, told, tr("Height"));
+        let label =
+            label.on_hover_text(tr("Of the wrinkle: at most half its width; below zero it goes inwards"));
+        if let Some(new) = length_field(ui, "wrinkle height", &label, wrinkle.height, told.now.unit) {
+            asks.push(set(Some(wrinkle.as_high_as(new))));
+        }
     });
 }
 

@@ -1,4 +1,4 @@
-//! Draws what is worked on pieces: fold lines, topstitching, hems, elastic, piping, zips and buttons.
+//! Draws what is worked on pieces: fold lines, topstitching, hems, elastic, piping, wrinkles, zips and buttons.
 
 use std::sync::Arc;
 
@@ -8,7 +8,7 @@ use glam::DVec2;
 use super::draw::Drawing;
 use super::table::Table;
 use crate::pattern::stitches::{Row, Thread, is_trimmed_alike, rows};
-use crate::pattern::{Button, Fold, Pattern, Piping, PlanePose, Trims};
+use crate::pattern::{Button, Fold, Pattern, Piping, PlanePose, Trims, Wrinkle};
 use crate::ui::look::theme::colour;
 
 /// The rows of stitches of a pattern, kept until it changes.
@@ -40,8 +40,11 @@ impl Drawing<'_> {
                 self.worked(&piece.pose, points, piece.edge(i).trims);
             }
             for (line, points) in piece.lines.iter().zip(&shape.lines) {
-                let trims = line.edges.first().map(|edge| edge.trims);
-                self.worked(&piece.pose, points, trims.unwrap_or_default());
+                let trims = line.edges.first().map(|edge| edge.trims).unwrap_or_default();
+                if let Some(wrinkle) = trims.wrinkle {
+                    self.wrinkle(&piece.pose, points, wrinkle);
+                }
+                self.worked(&piece.pose, points, trims);
             }
         }
         for row in table.rows {
@@ -119,6 +122,17 @@ impl Drawing<'_> {
         }
         if let Some(fold) = trims.fold {
             self.fold(&points, fold);
+        }
+    }
+
+    /// Draws a wrinkle: a band as wide as it is, denser towards its middle; valleys are paler than ridges.
+    fn wrinkle(&self, pose: &PlanePose, points: &[DVec2], wrinkle: Wrinkle) {
+        let points: Vec<Pos2> = points.iter().map(|&p| self.place(pose.plane_from_piece(p))).collect();
+        let ink = if wrinkle.height < 0.0 { self.palette.weak } else { self.palette.guide };
+        let width = (wrinkle.width * self.view.scale) as f32;
+        for share in [1.0, 0.75, 0.5, 0.25] {
+            self.painter
+                .add(Shape::line(points.clone(), Stroke::new(width * share, ink.gamma_multiply(0.12))));
         }
     }
 

@@ -9,7 +9,7 @@ use crate::pattern::activity::Activity;
 use crate::pattern::edit::{LinePoint, PatternEdit, PointRef, TrimLine};
 use crate::pattern::{
     EdgeRef, EdgeShape, Elastic, Fold, Hem, Pattern, Piece, Piping, PlanePose, RulePoint, SpacePose,
-    Topstitch, Trims, Zip, curve,
+    Topstitch, Trims, Wrinkle, Zip, curve,
 };
 use crate::place::rolled_up;
 use crate::ui::actions::Action;
@@ -88,6 +88,7 @@ pub fn edits(action: Action, pattern: &Pattern, selection: &Selection) -> Vec<Pa
         | Action::ToggleTopstitch
         | Action::ToggleHem
         | Action::TogglePiping
+        | Action::ToggleWrinkle
         | Action::ToggleZip
         | Action::ToggleFastened => edits_of_trims(action, pattern, selection),
         _ => edits_of_edges(action, pattern, selection),
@@ -99,7 +100,7 @@ pub fn edits(action: Action, pattern: &Pattern, selection: &Selection) -> Vec<Pa
 fn edits_of_trims(action: Action, pattern: &Pattern, selection: &Selection) -> Vec<PatternEdit> {
     let edges: Vec<TrimLine> = selection.edges.iter().map(|&edge| TrimLine::Edge(edge)).collect();
     let inside = selection.lines.iter().map(|l| TrimLine::Line { piece: l.piece, line: l.line });
-    let lines: Vec<TrimLine> = edges.iter().copied().chain(inside).collect();
+    let lines: Vec<TrimLine> = edges.iter().copied().chain(inside.clone()).collect();
     let first = lines.first().and_then(|line| line.of(pattern.pieces.get(&line.piece())?));
     let is_zipped = |id: &SeamId| pattern.seams.get(id).is_some_and(|seam| seam.zip.is_some());
     match (action, first) {
@@ -120,6 +121,13 @@ fn edits_of_trims(action: Action, pattern: &Pattern, selection: &Selection) -> V
         }
         (Action::TogglePiping, Some(Trims { piping, .. })) => {
             vec![PatternEdit::SetPiping { lines, piping: piping.is_none().then_some(Piping::USUAL) }]
+        }
+        (Action::ToggleWrinkle, _) => {
+            let inside: Vec<TrimLine> = inside.collect();
+            let first = inside.first().and_then(|line| line.of(pattern.pieces.get(&line.piece())?));
+            let Some(Trims { wrinkle, .. }) = first else { return Vec::new() };
+            let wrinkle = wrinkle.is_none().then_some(Wrinkle::USUAL);
+            vec![PatternEdit::SetWrinkle { lines: inside, wrinkle }]
         }
         (Action::ToggleZip, _) => {
             let zip = (!selection.seams.iter().all(is_zipped)).then_some(Zip::CLOSED);

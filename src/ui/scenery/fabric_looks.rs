@@ -145,6 +145,14 @@ mod tests {
     use crate::session::Motif;
 
     #[test]
+    fn files_and_pictures_have_the_same_colours() {
+        for c in 0..=255 {
+            let colour = [c, 255 - c, c / 2];
+            assert_eq!(crate::io::materials::linear(colour), linear(colour).to_array());
+        }
+    }
+
+    #[test]
     fn the_grain_runs_up_in_the_cloth() {
         let corner = |uv| Corner { piece: PieceId(1), uv, vertex: 0 };
         let garment = Garment {

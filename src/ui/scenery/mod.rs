@@ -1,7 +1,6 @@
 //! Converts document and cloth to what the renderer draws, with and without a window.
 
 pub mod body_look;
-pub(in crate::ui) mod cords;
 pub(in crate::ui) mod covered;
 pub mod environment;
 pub mod fabric_looks;

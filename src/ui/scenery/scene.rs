@@ -6,6 +6,7 @@ use std::sync::Arc;
 use glam::{DVec2, DVec3, Vec2, Vec3};
 
 use crate::body::Surface;
+use crate::cloth::cords::{is_piped, piped};
 use crate::cloth::{ClothState, FlatPiece, FlatPlace, Garment};
 use crate::contact::Bone;
 use crate::geometry::adjacency::NONE;
@@ -15,14 +16,13 @@ use crate::pattern::Pattern;
 use crate::pattern::activity::Activity;
 use crate::render::{CLOTH_BACK, CLOTH_FRONT, Ground, Label, Mesh, Polyline, Rgb, Scene, mark_colour};
 use crate::ui::scenery::body_look::BodyLook;
-use crate::ui::scenery::cords::{Lined, is_piped, piped};
 use crate::ui::scenery::covered::covered;
 use crate::ui::scenery::fabric_looks::PieceLooks;
 use crate::ui::scenery::mapped::in_colours;
 use crate::ui::scenery::parted::{deactivated, painted, parted};
 use crate::ui::scenery::rims::{open_edges, rims};
 use crate::ui::scenery::stitches::stitched;
-use crate::ui::scenery::trims::{TrimScenery, fold_lines};
+use crate::ui::scenery::trims::{Lined, TrimScenery, fold_lines};
 use crate::wrap::{ClothMark, Marks};
 
 /// The look of a pin.

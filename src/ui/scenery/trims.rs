@@ -1,40 +1,32 @@
 //! Draws what is worked on the cloth: fold lines, topstitching, hems, elastic, piping, zips and buttons. No egui here: pictures
 //! without a window use it too.
 
+use std::collections::BTreeSet;
 use std::sync::Arc;
 
-use glam::{DVec2, Vec3};
+use glam::Vec3;
 
-use crate::cloth::{ClothState, FlatPiece, FlatPlace, Garment};
-use crate::geometry::ids::PieceId;
+use crate::cloth::cords::{Cord, Ends, is_piped};
+use crate::cloth::dashes::dashes;
+use crate::cloth::trim_shapes::{
+    AROUND_BUTTON, GAP, HEM_LAYER, SLIT, STITCH_SHARES, TAPE, TAPE_WIDTH, THREAD_THICKNESS, TOOTH,
+    push_button, push_hem, shade,
+};
+use crate::cloth::{ClothState, FlatPlace, Garment, TrimShapes};
 use crate::geometry::mesh::vertex_normals;
-use crate::pattern::stitches::{Row, Thread, hems, rows};
-use crate::pattern::{Button, Pattern};
+use crate::geometry::solid::Solid;
+use crate::pattern::Pattern;
+use crate::pattern::stitches::Thread;
 use crate::render::{CLOTH_BACK, Mesh, Polyline, Rgb};
-use crate::ui::scenery::cords::{Cord, Lined, cords, is_piped};
 use crate::ui::scenery::fabric_looks::PieceLooks;
-use crate::ui::scenery::stitches::{THREAD_THICKNESS, dashes};
 
 /// Colour of a crease, sRGB and opacity.
 const CREASE: [u8; 4] = [40, 44, 48, 110];
-/// Share of a stitch's length that is the gap after it.
-const GAP: f32 = 0.35;
-/// Length of a tooth of a zip and of the gap to the next, and its real width, metres.
-const TOOTH: [f32; 3] = [0.0016, 0.0012, 0.0035];
-/// Colour of the tape of a zip, as a share of that of the teeth.
-const TAPE: f32 = 0.35;
-/// Height of a button, metres, and of its middle above the cloth.
-const BUTTON_HEIGHT: [f32; 2] = [0.0025, 0.0022];
-/// Corners of a button.
-const ROUND: usize = 20;
-/// Distance of the holes of a button from its middle, in diameters, and their size.
-const HOLES: f32 = 0.14;
-/// By how much a buttonhole is longer than the button, metres.
-const HOLE_EASE: f64 = 0.003;
-/// Distance of the layer of a hem from the cloth, on its inner side, metres.
-const HEM_LAYER: f32 = 0.0012;
 /// Depth bias of a row, metres.
 const LIFT: f32 = 0.0026;
+
+/// Which lines along the cloth are drawn: of vertices that are seen, and not of these edges, which a cord covers.
+pub type Lined<'a> = (&'a dyn Fn(u32) -> bool, &'a BTreeSet<Ends>);
 
 /// Draws the trims of a garment; keeps where they are on it until garment or pattern change.
 #[derive(Debug, Default)]
@@ -46,20 +38,7 @@ pub struct TrimScenery {
 struct Places {
     garment: Arc<Garment>,
     pattern: Arc<Pattern>,
-    rows: Vec<(Thread, Vec<FlatPlace>)>,
-    buttons: Vec<ButtonPlaces>,
-    /// For each hem its piece, and pairs of a point of the edge and one of where it ends.
-    hems: Vec<(PieceId, Vec<[FlatPlace; 2]>)>,
-    cords: Vec<Cord>,
-}
-
-#[derive(Debug)]
-struct ButtonPlaces {
-    look: Button,
-    /// The button's own place, that of its hole, and the ends of the buttonhole.
-    button: Option<FlatPlace>,
-    hole: Option<FlatPlace>,
-    slit: Vec<FlatPlace>,
+    shapes: TrimShapes,
 }
 
 impl TrimScenery {
@@ -76,44 +55,47 @@ impl TrimScenery {
             .as_ref()
             .is_some_and(|p| Arc::ptr_eq(&p.garment, garment) && Arc::ptr_eq(&p.pattern, pattern));
         if !is_known {
-            self.places = Some(Places::new(garment, pattern));
+            let shapes = TrimShapes::new(garment, pattern);
+            self.places = Some(Places { garment: Arc::clone(garment), pattern: Arc::clone(pattern), shapes });
         }
-        let Some(places) = &self.places else { return (Vec::new(), Vec::new()) };
+        let Some(Places { shapes, .. }) = &self.places else { return (Vec::new(), Vec::new()) };
         let seen = |place: &FlatPlace| {
             let vertices = place.vertices(garment);
             let is_seen = vertices.iter().all(|&(v, _)| is_seen(v));
             place.point(garment, state).map(|p| p.as_vec3()).filter(|_| is_seen)
         };
         let mut lines = Vec::new();
-        for (thread, row) in &places.rows {
+        for (thread, row) in &shapes.rows {
             let points: Vec<Option<Vec3>> = row.iter().map(seen).collect();
             for run in points.split(Option::is_none).filter(|run| run.len() > 1) {
                 let run: Vec<Vec3> = run.iter().flatten().copied().collect();
                 lines.extend(threads(&run, *thread, scale));
             }
         }
-        let is_flat = places.buttons.is_empty() && places.hems.is_empty();
+        let is_flat = shapes.buttons.is_empty() && shapes.hems.is_empty();
         let normals = if is_flat { Vec::new() } else { normals(garment, state) };
         let normal_at = |place: &FlatPlace| {
             let vertices = place.vertices(garment);
             vertices.iter().map(|&(v, s)| normals[v as usize] * s as f32).sum::<Vec3>().normalize_or(Vec3::Z)
         };
-        let mut mesh = Mesh { front: [255; 3], back: [255; 3], ..Mesh::default() };
-        for button in &places.buttons {
+        let mut solid = Solid::default();
+        for button in &shapes.buttons {
             let slit: Vec<Vec3> = button.slit.iter().filter_map(seen).collect();
             if slit.len() == button.slit.len() {
-                lines.push(Polyline { points: slit, ..line(dark(button.look.colour), 2.2, 0.0016, scale) });
+                let around = opaque(shade(button.look.colour, AROUND_BUTTON[0]));
+                lines.push(Polyline { points: slit, ..line(around, 2.2, SLIT, scale) });
             }
-            let at = if button.look.open { &button.button } else { &button.hole };
-            let Some((place, at)) = at.as_ref().and_then(|place| Some((place, seen(place)?))) else {
+            let Some((place, at)) = button.shown().and_then(|place| Some((place, seen(place)?))) else {
                 continue;
             };
-            let normal =
-                place.vertices(garment).iter().map(|&(v, s)| normals[v as usize] * s as f32).sum::<Vec3>();
-            let normal = normal.normalize_or(Vec3::Z);
-            lines.extend(push_button(&mut mesh, &button.look, at, normal, scale));
+            let normal = normal_at(place);
+            let frame = [normal, normal.any_orthonormal_vector()];
+            let threads = push_button(&mut solid, &button.look, at, frame, scale);
+            let thread = opaque(shade(button.look.colour, AROUND_BUTTON[1]));
+            let thread = line(thread, 2.0, THREAD_THICKNESS, scale);
+            lines.extend(threads.map(|ends| Polyline { points: ends.to_vec(), ..thread.clone() }));
         }
-        for (piece, pairs) in &places.hems {
+        for (piece, pairs) in &shapes.hems {
             let own = looks.and_then(|looks| looks.get(piece)?.colours);
             let inside = own.map_or(CLOTH_BACK, |[_, inside]| inside);
             let ends: Vec<Option<[Vec3; 3]>> = pairs
@@ -126,90 +108,54 @@ impl TrimScenery {
                 })
                 .collect();
             for run in ends.split(Option::is_none) {
-                push_hem(&mut mesh, &run.iter().flatten().copied().collect::<Vec<_>>(), inside);
+                push_hem(&mut solid, &run.iter().flatten().copied().collect::<Vec<_>>(), inside);
             }
         }
-        let mut meshes = vec![mesh, tubes(&places.cords, state, is_seen, scale)];
+        let mut meshes = vec![plain(solid), tubes(&shapes.cords, state, is_seen, scale)];
         meshes.retain(|mesh| !mesh.triangles.is_empty());
         (lines, meshes)
     }
 }
 
-impl Places {
-    fn new(garment: &Arc<Garment>, pattern: &Arc<Pattern>) -> Self {
-        let mut known: Option<(PieceId, FlatPiece)> = None;
-        // Beside the chords of a curved edge a row may leave the mesh a little.
-        let is_near = |place: &FlatPlace| place.shares.iter().all(|&share| share > -0.3);
-        let mut placed = |piece: PieceId, points: &[DVec2]| -> Vec<FlatPlace> {
-            if known.as_ref().is_none_or(|(id, _)| *id != piece) {
-                known = Some((piece, FlatPiece::new(garment, piece)));
-            }
-            let flat = known.as_ref().map(|(_, flat)| flat);
-            points.iter().filter_map(|&p| flat?.nearest(garment, p).filter(is_near)).collect()
-        };
-        let rows = rows(pattern)
-            .into_iter()
-            .map(|Row { piece, points, thread }| (thread, placed(piece, &points)))
-            .collect();
-        let buttons = pattern
-            .buttons
-            .values()
-            .map(|&look| {
-                let half = DVec2::X * ((look.diameter + HOLE_EASE) / 2.0);
-                let hole = look.hole;
-                ButtonPlaces {
-                    look,
-                    button: placed(look.button.piece, &[look.button.at]).first().copied(),
-                    hole: placed(hole.piece, &[hole.at]).first().copied(),
-                    slit: placed(hole.piece, &[hole.at - half, hole.at, hole.at + half]),
-                }
-            })
-            .collect();
-        let hems = hems(pattern)
-            .into_iter()
-            .map(|(piece, pairs)| {
-                let pair = |ends: [DVec2; 2]| <[FlatPlace; 2]>::try_from(placed(piece, &ends)).ok();
-                (piece, pairs.into_iter().filter_map(pair).collect())
-            })
-            .collect();
-        let cords = cords(garment, pattern);
-        Self { garment: Arc::clone(garment), pattern: Arc::clone(pattern), rows, buttons, hems, cords }
-    }
+/// A solid in its own colours.
+fn plain(solid: Solid) -> Mesh {
+    let Solid { positions, normals, triangles, colours } = solid;
+    Mesh { positions, normals, triangles, colours, front: [255; 3], back: [255; 3], ..Mesh::default() }
 }
 
 /// The tubes of `cords`, in cloth.
 fn tubes(cords: &[Cord], state: &ClothState, is_seen: &dyn Fn(u32) -> bool, scale: f32) -> Mesh {
-    let mut mesh = Mesh { front: [255; 3], back: [255; 3], cloth: 1.0, ..Mesh::default() };
+    let mut solid = Solid::default();
     let place = |v: u32| {
         let is_shown = state.mapped[v as usize] && is_seen(v);
-        is_shown.then(|| state.positions[v as usize].as_vec3())
+        is_shown.then(|| [state.positions[v as usize].as_vec3(), Vec3::ZERO])
     };
-    cords.iter().for_each(|cord| cord.push(&mut mesh, place, scale));
-    mesh
+    cords.iter().for_each(|cord| cord.push(&mut solid, place, scale));
+    Mesh { cloth: 1.0, ..plain(solid) }
 }
 
 /// The lines of one row of stitches.
 fn threads(points: &[Vec3], thread: Thread, scale: f32) -> Vec<Polyline> {
+    let [stitches, unbroken] = STITCH_SHARES.map(|share| THREAD_THICKNESS * share);
     match thread {
         Thread::Stitches { length, colour } => {
             let length = length as f32 * scale;
             let (stitch, gap) = (length * (1.0 - GAP), length * GAP);
-            let look = line(opaque(colour), 1.7, THREAD_THICKNESS * 0.7, scale);
+            let look = line(opaque(colour), 1.7, stitches, scale);
             dashes(points, stitch, gap)
                 .into_iter()
                 .map(|points| Polyline { points, ..look.clone() })
                 .collect()
         }
         Thread::Line { colour } => {
-            vec![Polyline {
-                points: points.to_vec(),
-                ..line(opaque(colour), 1.4, THREAD_THICKNESS * 0.6, scale)
-            }]
+            vec![Polyline { points: points.to_vec(), ..line(opaque(colour), 1.4, unbroken, scale) }]
         }
         Thread::Teeth { colour } => {
             let [tooth, gap, width] = TOOTH;
-            let tape =
-                Polyline { points: points.to_vec(), ..line(shade(colour, TAPE), 9.0, width * 2.0, scale) };
+            let tape = Polyline {
+                points: points.to_vec(),
+                ..line(opaque(shade(colour, TAPE)), 9.0, width * TAPE_WIDTH, scale)
+            };
             let look = Polyline { lift: LIFT * 1.3 * scale, ..line(opaque(colour), 6.0, width, scale) };
             let teeth = dashes(points, tooth * scale, gap * scale).into_iter();
             std::iter::once(tape).chain(teeth.map(|points| Polyline { points, ..look.clone() })).collect()
@@ -232,70 +178,10 @@ fn opaque(colour: Rgb) -> [u8; 4] {
     [colour[0], colour[1], colour[2], 245]
 }
 
-/// A colour at this share of its brightness.
-fn shade(colour: Rgb, share: f32) -> [u8; 4] {
-    opaque(colour.map(|c| (f32::from(c) * share) as u8))
-}
-
-fn dark(colour: Rgb) -> [u8; 4] {
-    shade(colour, 0.45)
-}
-
 fn normals(garment: &Garment, state: &ClothState) -> Vec<Vec3> {
     let is_laid = |t: &[u32; 3]| t.iter().all(|&v| state.mapped[v as usize]);
     let triangles: Vec<[u32; 3]> = garment.triangles.iter().copied().filter(is_laid).collect();
     vertex_normals(&state.positions, &triangles).iter().map(|n| n.as_vec3()).collect()
-}
-
-/// Adds a round button on the cloth at `at`, and gives the thread that holds it.
-fn push_button(mesh: &mut Mesh, look: &Button, at: Vec3, normal: Vec3, scale: f32) -> Vec<Polyline> {
-    let radius = look.diameter as f32 / 2.0 * scale;
-    let [height, above] = BUTTON_HEIGHT.map(|h| h * scale);
-    let side = normal.any_orthonormal_vector();
-    let other = normal.cross(side);
-    let around = |i: usize, r: f32, up: f32| {
-        let (sin, cos) = (std::f32::consts::TAU * i as f32 / ROUND as f32).sin_cos();
-        at + normal * up + (side * cos + other * sin) * r
-    };
-    let (low, high) = (above - height / 2.0, above + height / 2.0);
-    // Rings from below: the foot, the rim, its upper edge, and the dip within it.
-    let rings =
-        [(radius * 0.9, low), (radius, above), (radius * 0.9, high), (radius * 0.7, high - height * 0.25)];
-    let first = mesh.positions.len() as u32;
-    for (r, up) in rings {
-        mesh.positions.extend((0..ROUND).map(|i| around(i, r, up)));
-    }
-    let top = mesh.positions.len() as u32;
-    mesh.positions.push(at + normal * (high - height * 0.25));
-    mesh.colours.resize(mesh.positions.len(), look.colour);
-    let n = ROUND as u32;
-    for ring in 0..rings.len() as u32 - 1 {
-        for i in 0..n {
-            let (a, b) = (first + ring * n + i, first + ring * n + (i + 1) % n);
-            mesh.triangles.extend([[a, b, b + n], [a, b + n, a + n]]);
-        }
-    }
-    let last = first + (rings.len() as u32 - 1) * n;
-    mesh.triangles.extend((0..n).map(|i| [last + i, last + (i + 1) % n, top]));
-    let reach = radius * 2.0 * HOLES;
-    let hole = |x: f32, y: f32| at + normal * (high - height * 0.1) + (side * x + other * y) * reach;
-    let thread = line(shade(look.colour, 0.55), 2.0, THREAD_THICKNESS, scale);
-    [[(-1.0, -1.0), (1.0, 1.0)], [(-1.0, 1.0), (1.0, -1.0)]]
-        .map(|ends| Polyline { points: ends.map(|(x, y)| hole(x, y)).to_vec(), ..thread.clone() })
-        .to_vec()
-}
-
-/// Adds the layer of a hem: along it the edge of the cloth, the edge of the layer, and its inner border.
-fn push_hem(mesh: &mut Mesh, ends: &[[Vec3; 3]], colour: Rgb) {
-    let first = mesh.positions.len() as u32;
-    mesh.positions.extend(ends.iter().flatten());
-    mesh.colours.resize(mesh.positions.len(), colour);
-    for i in 0..(ends.len() as u32).saturating_sub(1) {
-        for k in 0..2 {
-            let (a, b) = (first + 3 * i + k, first + 3 * (i + 1) + k);
-            mesh.triangles.extend([[a, b, b + 1], [a, b + 1, a + 1]]);
-        }
-    }
 }
 
 /// Lines along the folds of the cloth that is on the body, without those that are `piped`; `is_seen` tells which vertices are not
@@ -320,9 +206,11 @@ pub fn fold_lines(
 
 #[cfg(test)]
 mod tests {
+    use glam::DVec2;
+
     use super::*;
     use crate::cloth::build;
-    use crate::pattern::{Piece, PiecePoint, Piping, Topstitch};
+    use crate::pattern::{Button, Piece, PiecePoint, Piping, Topstitch};
 
     /// The garment of `pattern`, flat, 1 m up and 3 m in front.
     fn hung(pattern: &Pattern) -> (Arc<Garment>, ClothState) {

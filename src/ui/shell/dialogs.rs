@@ -20,6 +20,7 @@ use crate::ui::files::{Purpose, RawBody};
 use crate::ui::language::keys::shortcut_text;
 use crate::ui::language::{number, say, tr};
 use crate::ui::pointer::mouse::Mouse;
+use crate::ui::scenery::worn::WornFiles;
 
 /// If a native dialog reports "cancelled" sooner than this, it has not been shown at all: no hand clicks that fast.
 const TOO_QUICK: Duration = Duration::from_millis(400);
@@ -47,6 +48,8 @@ pub enum Dialog {
     ChangedOnDisk { path: PathBuf },
     /// Tells that the project could not be saved to the file, and why.
     NotSaved { path: PathBuf, words: String },
+    /// Asks whether to replace files of these names, which belong beside the first of `written`.
+    Beside { written: Box<WornFiles>, names: Vec<String> },
 }
 
 /// The user's answer to a dialog.
@@ -70,6 +73,10 @@ pub enum Answer {
     Overwrite(PathBuf),
     /// Overwrite a write-protected file.
     Replace(PathBuf),
+    /// Write the dressed garment, over files that are there.
+    Export(Box<WornFiles>),
+    /// Choose another file.
+    Elsewhere(Purpose),
     /// Save under another name.
     SaveAs,
     /// The pattern in this file, in this unit.
@@ -99,6 +106,7 @@ impl Dialog {
             Self::TechPack { languages, chosen } => tech_pack_ui(ctx, languages, chosen),
             Self::ChangedOnDisk { path } => changed_ui(ctx, path),
             Self::NotSaved { path, words } => not_saved_ui(ctx, path, words),
+            Self::Beside { written, names } => beside_ui(ctx, written, names),
         }
     }
 }
@@ -215,6 +223,22 @@ fn not_saved_ui(ctx: &egui::Context, path: &Path, words: &str) -> Answer {
     buttons.push((tr("Cancel"), "", Answer::Cancel));
     let kept = say!("{path} is as it was; your work is kept here.", path = path.display());
     question_ui(ctx, "not saved", tr("Not saved"), &format!("{words}.\n{kept}"), buttons)
+}
+
+fn beside_ui(ctx: &egui::Context, written: &mut WornFiles, names: &[String]) -> Answer {
+    let words = say!(
+        "The garment is written as several files. These are there already, and would be replaced: {names}",
+        names = names.join(", ")
+    );
+    let buttons = vec![
+        (tr("Replace them"), "", Answer::Export(Box::default())),
+        (tr("Choose another name…"), "", Answer::Elsewhere(Purpose::Export)),
+        (tr("Cancel"), "", Answer::Cancel),
+    ];
+    match question_ui(ctx, "beside", tr("Replace the files beside it?"), &words, buttons) {
+        Answer::Export(_) => Answer::Export(Box::new(std::mem::take(written))),
+        other => other,
+    }
 }
 
 fn revert_ui(ctx: &egui::Context, path: &Path) -> Answer {

@@ -197,12 +197,13 @@ pub fn selection_ui(ui: &mut egui::Ui, now: &FrameContext, asks: &mut Asks) {
 }
 
 /// What is worked along edges, lines and seams.
-const TRIMS: [Action; 7] = [
+const TRIMS: [Action; 8] = [
     Action::ToggleFold,
     Action::ToggleElastic,
     Action::ToggleTopstitch,
     Action::ToggleHem,
     Action::TogglePiping,
+    Action::ToggleWrinkle,
     Action::ToggleZip,
     Action::ToggleFastened,
 ];

@@ -19,3 +19,4 @@ mod rests;
 mod slips;
 mod springs;
 mod stability;
+mod wrinkles;

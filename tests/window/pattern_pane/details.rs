@@ -1,6 +1,6 @@
 //! Lines, holes, arcs, guides; pieces folded, unfolded and made symmetric.
 
-use toile::pattern::{AllowanceCorner, EdgeShape, InternalLine, Piping, Side};
+use toile::pattern::{AllowanceCorner, EdgeShape, InternalLine, Piping, Side, Wrinkle};
 
 use super::*;
 
@@ -220,4 +220,60 @@ fn piping_is_in_the_menu_of_the_pattern() {
     assert_eq!(trims(&window).piping, Some(Piping::USUAL));
     key(&mut window, Modifiers::COMMAND, Key::Z);
     assert!(trims(&window).is_none());
+}
+
+#[test]
+fn a_wrinkle_is_set_changed_and_smoothed_out_in_the_side_panel_and_undone() {
+    use egui::accesskit::Role;
+    let mut window = window_on(detailed());
+    press(&mut window, Key::A);
+    let line = place(&window, "A, line 1");
+    click(&mut window, line);
+    let wrinkle = |window: &Window| piece(&pattern(window), "A").lines[0].edges[0].trims.wrinkle;
+    window.get_by_role_and_label(Role::CheckBox, "Wrinkle").click_accesskit();
+    window.run_steps(4);
+    assert_eq!(wrinkle(&window), Some(Wrinkle::USUAL));
+    let typed = |window: &mut Window, label: &str, text: &str| {
+        window.get_by_role_and_label(Role::TextInput, label).focus();
+        window.run_steps(2);
+        key(window, Modifiers::COMMAND, Key::A);
+        window.get_by_role_and_label(Role::TextInput, label).type_text(text);
+        window.run_steps(2);
+        press(window, Key::Enter);
+        let Wrinkle { width, height } = wrinkle(window).expect("a wrinkle");
+        [width, height].map(|metres| (metres * 1e6).round() / 1e3)
+    };
+    assert_eq!(typed(&mut window, "Height", "-12 mm"), [40.0, -12.0]);
+    assert_eq!(typed(&mut window, "Width", "10 mm"), [10.0, -5.0], "at most half as high as wide");
+    assert_eq!(typed(&mut window, "Width", "300 mm"), [100.0, -5.0], "the widest there is");
+    assert_eq!(steps(&window), ["set a wrinkle"; 4]);
+    window.get_by_role_and_label(Role::CheckBox, "Wrinkle").click_accesskit();
+    window.run_steps(4);
+    assert_eq!(wrinkle(&window), None);
+    key(&mut window, Modifiers::COMMAND, Key::Z);
+    assert!(wrinkle(&window).is_some());
+    let recording = window.state_mut().as_mut().expect("the app").recording();
+    assert!(recording.contains("set_wrinkle"), "it is recorded");
+}
+
+#[test]
+fn a_wrinkle_is_in_the_menu_for_lines_inside_pieces() {
+    let mut window = window_on(detailed());
+    press(&mut window, Key::A);
+    let line = place(&window, "A, line 1");
+    click(&mut window, line);
+    crate::act(&mut window, "Pattern");
+    // The side panel has a box of that name.
+    let is_box = |role| role == egui::accesskit::Role::CheckBox;
+    let mut entries = window.get_all_by_label("Wrinkle").filter(|node| !is_box(node.accesskit_node().role()));
+    entries.next().expect("an entry").click();
+    drop(entries);
+    window.run_steps(4);
+    let trims = |window: &Window| piece(&pattern(window), "A").lines[0].edges[0].trims;
+    assert_eq!(trims(&window).wrinkle, Some(Wrinkle::USUAL));
+    key(&mut window, Modifiers::COMMAND, Key::Z);
+    assert!(trims(&window).is_none());
+    let edge = place(&window, "A, edge 1:");
+    click(&mut window, edge);
+    assert!(window.query_by_role_and_label(egui::accesskit::Role::CheckBox, "Wrinkle").is_none());
 }

@@ -52,7 +52,7 @@ fn pattern(window: &Window) -> Pattern {
 }
 
 fn steps(window: &Window) -> Vec<String> {
-    app(window).session().step_labels().map(str::to_owned).collect()
+    app(window).session().step_labels().map(|label| label.to_string()).collect()
 }
 
 fn piece<'a>(pattern: &'a Pattern, name: &str) -> &'a Piece {

@@ -157,6 +157,13 @@ pub const ROWS: &[Row] = &[
         "Sew a covered cord in along the selected edges and lines",
     )
     .needs(&[Need::PickedLine]),
+    row(
+        "Pattern",
+        Action::ToggleWrinkle,
+        "Wrinkle",
+        "Raise the cloth to a soft wrinkle along the selected lines, or smooth it out",
+    )
+    .needs(&[Need::PickedInnerLine]),
     row("Pattern", Action::ToggleZip, "Zip", "Put a zip into the selected seams, or take it out")
         .needs(&[Need::PickedSeam]),
     row("Pattern", Action::ToggleFastened, "Fasten buttons", "Fasten all buttons, or unfasten them")

@@ -1,4 +1,4 @@
-//! Draws piping: cords along edges of the cloth, as tubes. No egui here: pictures without a window use it too.
+//! Piping: cords along edges of the cloth, as tubes. Pictures show them and files hold them.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -7,8 +7,8 @@ use glam::{DVec2, Quat, Vec3};
 use crate::cloth::{Garment, trims::Along};
 use crate::geometry::ids::PieceId;
 use crate::geometry::polygon::distance_to_segment;
+use crate::geometry::solid::Solid;
 use crate::pattern::{Pattern, Piece, Piping, curve};
-use crate::render::{Mesh, Rgb};
 
 /// Sides of a tube.
 const SIDES: usize = 10;
@@ -37,9 +37,6 @@ pub struct Cord {
 pub fn piped(garment: &Garment) -> BTreeSet<Ends> {
     garment.trims.piped.iter().map(|along| ends(garment, along)).collect()
 }
-
-/// Which lines along the cloth are drawn: of vertices that are seen, and not of these edges, which a cord covers.
-pub type Lined<'a> = (&'a dyn Fn(u32) -> bool, &'a BTreeSet<Ends>);
 
 /// Whether the edge between two vertices is one of `piped`.
 pub fn is_piped(piped: &BTreeSet<Ends>, [a, b]: [u32; 2]) -> bool {
@@ -147,18 +144,20 @@ fn joined(looks: &BTreeMap<Ends, Piping>) -> Vec<Cord> {
 }
 
 impl Cord {
-    /// Adds the tube of the cord to `mesh`, with normals, where `place` has its vertices. Its axis is the line itself: half of it
-    /// shows on the outer side. `scale` is that of the body.
-    pub fn push(&self, mesh: &mut Mesh, place: impl Fn(u32) -> Option<Vec3>, scale: f32) {
-        let places: Vec<Option<Vec3>> = self.vertices.iter().map(|&v| place(v)).collect();
+    /// Adds the tube of the cord to `mesh`, with normals, where `place` has its vertices, each with the direction that a corner of
+    /// a tube which begins there points in; zero: any. Its axis is the line itself: half of it shows on the outer side. `scale`
+    /// is that of the body.
+    pub fn push(&self, mesh: &mut Solid, place: impl Fn(u32) -> Option<[Vec3; 2]>, scale: f32) {
+        let places: Vec<Option<[Vec3; 2]>> = self.vertices.iter().map(|&v| place(v)).collect();
         let radius = self.look.radius as f32 * scale;
         let is_whole = self.is_closed && places.len() > 2 && places.iter().all(Option::is_some);
         // A closed cord that is covered somewhere goes on past where it begins.
         let again = if self.is_closed && !is_whole { places.first().copied() } else { None };
-        let places: Vec<Option<Vec3>> = places.into_iter().chain(again).collect();
+        let places: Vec<Option<[Vec3; 2]>> = places.into_iter().chain(again).collect();
         for run in places.split(Option::is_none).filter(|run| run.len() > 1) {
-            let run: Vec<Vec3> = run.iter().flatten().copied().collect();
-            push_tube(mesh, &rounded(&run, is_whole), is_whole, radius, self.look.colour);
+            let across = run.iter().flatten().next().map_or(Vec3::ZERO, |[_, across]| *across);
+            let run: Vec<Vec3> = run.iter().flatten().map(|[at, _]| *at).collect();
+            push_tube(mesh, (&rounded(&run, is_whole), across), is_whole, radius, self.look.colour);
         }
     }
 }
@@ -194,8 +193,9 @@ fn rounded(points: &[Vec3], is_closed: bool) -> Vec<Vec3> {
     curve
 }
 
-/// Unit tangents of a polyline, and at each point a unit vector across it, which turns about the tangent as little as it can.
-fn frames(points: &[Vec3], is_closed: bool) -> Vec<[Vec3; 2]> {
+/// Unit tangents of a polyline, and at each point a unit vector across it, which turns about the tangent as little as it can. The
+/// first is as near to `across` as it can be.
+fn frames(points: &[Vec3], across: Vec3, is_closed: bool) -> Vec<[Vec3; 2]> {
     let n = points.len();
     let mut frames: Vec<[Vec3; 2]> = Vec::with_capacity(n);
     let tangent = |i: usize| {
@@ -216,7 +216,8 @@ fn frames(points: &[Vec3], is_closed: bool) -> Vec<[Vec3; 2]> {
             (Some(last), None) => last,
             (None, way) => {
                 let way = way.unwrap_or(Vec3::X);
-                [way, way.any_orthonormal_vector()]
+                let side = across.reject_from_normalized(way).try_normalize();
+                [way, side.unwrap_or_else(|| way.any_orthonormal_vector())]
             }
         });
     }
@@ -232,13 +233,19 @@ fn frames(points: &[Vec3], is_closed: bool) -> Vec<[Vec3; 2]> {
     frames
 }
 
-/// Adds a tube of `radius` about the polyline `axis`, at least two points. Its ends are closed by domes, or joined where it
-/// `is_closed`.
-fn push_tube(mesh: &mut Mesh, axis: &[Vec3], is_closed: bool, radius: f32, colour: Rgb) {
+/// Adds a tube of `radius` about the polyline `axis`, at least two points; its first corner is as near to `across` as it can
+/// be. Its ends are closed by domes, or joined where it `is_closed`.
+fn push_tube(
+    mesh: &mut Solid,
+    (axis, across): (&[Vec3], Vec3),
+    is_closed: bool,
+    radius: f32,
+    colour: [u8; 3],
+) {
     let ring: [(f32, f32); SIDES] =
         std::array::from_fn(|k| (std::f32::consts::TAU * k as f32 / SIDES as f32).sin_cos());
     let first = mesh.positions.len() as u32;
-    let frames = frames(axis, is_closed);
+    let frames = frames(axis, across, is_closed);
     for (&at, [way, side]) in axis.iter().zip(&frames) {
         let other = way.cross(*side);
         for (sin, cos) in ring {
@@ -280,14 +287,14 @@ mod tests {
 
     const RADIUS: f32 = 0.0015;
 
-    fn tube(axis: &[Vec3], is_closed: bool) -> Mesh {
-        let mut mesh = Mesh::default();
-        push_tube(&mut mesh, axis, is_closed, RADIUS, [1, 2, 3]);
+    fn tube(axis: &[Vec3], is_closed: bool) -> Solid {
+        let mut mesh = Solid::default();
+        push_tube(&mut mesh, (axis, Vec3::ZERO), is_closed, RADIUS, [1, 2, 3]);
         mesh
     }
 
     /// Checks that a mesh is closed and turned outwards: each side belongs to two triangles, one way each. Gives its volume.
-    fn volume_of_closed(mesh: &Mesh) -> f32 {
+    fn volume_of_closed(mesh: &Solid) -> f32 {
         let mut sides: BTreeMap<[u32; 2], i32> = BTreeMap::new();
         for &[a, b, c] in &mesh.triangles {
             [[a, b], [b, c], [c, a]].into_iter().for_each(|side| *sides.entry(side).or_default() += 1);
@@ -421,12 +428,12 @@ mod tests {
     fn a_covered_part_is_not_drawn() {
         let cord = Cord { vertices: (0..8).collect(), is_closed: true, look: Piping::USUAL };
         let at = |v: u32| Vec3::new((v as f32 * 0.785).cos(), (v as f32 * 0.785).sin(), 0.0);
-        let mut mesh = Mesh::default();
-        cord.push(&mut mesh, |v| (v != 3).then(|| at(v)), 1.0);
+        let mut mesh = Solid::default();
+        cord.push(&mut mesh, |v| (v != 3).then(|| [at(v), Vec3::ZERO]), 1.0);
         // From 4 over 0 to 2 there are 6 sides, in two runs that meet at 0.
         assert_eq!(mesh.positions.len(), (2 * PARTS + 1 + 4 * PARTS + 1) * SIDES + 4);
         assert!(volume_of_closed(&mesh) > 0.0);
-        let mut none = Mesh::default();
+        let mut none = Solid::default();
         cord.push(&mut none, |_| None, 1.0);
         assert!(none.positions.is_empty());
     }
