@@ -415,7 +415,7 @@ pub fn export(
     }
 }
 
-/// The project of a sample on the mannequin that it is made for.
+/// The project of a sample on the body that it is made for.
 pub fn sample(sample: Sample) -> Project {
     sample.usual()
 }
