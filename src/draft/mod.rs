@@ -7,6 +7,7 @@
 
 mod band;
 mod bodice;
+mod cape;
 mod collar;
 mod corpus;
 mod design;
@@ -18,12 +19,14 @@ mod hood;
 mod neckline;
 mod one_shoulder;
 mod path;
+mod pleats;
 mod sizes;
 mod skirt;
 mod sleeve;
 mod trousers;
 
 pub use bodice::{Bodice, Hem, Opening};
+pub use cape::{Cape, cape};
 pub use collar::{Collar, Fall};
 pub use corpus::{Case, Corpus, Shard};
 pub use design::{Bottom, Design, Kind, Top, Upper, Waist};
@@ -32,6 +35,7 @@ pub use dungarees::{Dungarees, dungarees};
 pub use form::Form;
 pub use hood::Hood;
 pub use neckline::{Neckline, Shape as NecklineShape};
+pub use pleats::{Pleats, pleated_skirt};
 pub use sizes::{ADULTS, BodySize, CHILDREN, SIZE_TABLES, SIZES, SizeTable};
 pub use skirt::{Shape, Skirt};
 pub use sleeve::Sleeve;

@@ -187,6 +187,90 @@ fn the_childs_dress_the_dungarees_the_coat_and_the_shirt_are_dressed() {
     check_put_on(None, &[Sample::ChildDress, Sample::Dungarees, Sample::Coat, Sample::Shirt]);
 }
 
+/// The sample, dressed at edges of 30 mm.
+fn put_on_coarse(sample: Sample) -> Session {
+    let mut project = drafted(sample);
+    project.document.settings.edge_length = 0.03;
+    put_on(project, None, sample.name())
+}
+
+/// Where the cloth of piece `name` is that is nearest to `at` in the plane of the piece.
+fn place(session: &Session, name: &str, at: DVec2) -> DVec3 {
+    let snapshot = session.snapshot();
+    let garment = snapshot.garment.as_ref().expect("a garment");
+    let piece = session.document().pattern.piece_named(name).expect("a piece");
+    let corners = garment.corners.iter().filter(|corner| corner.piece == piece);
+    let nearest = corners
+        .min_by(|a, b| a.uv.distance_squared(at).total_cmp(&b.uv.distance_squared(at)))
+        .expect("cloth");
+    snapshot.cloth.positions[nearest.vertex as usize]
+}
+
+/// Where the edge of piece `name` called `label` starts.
+fn start_of(session: &Session, name: &str, label: &str) -> DVec3 {
+    let pattern = &session.document().pattern;
+    let outline = &pattern.pieces[&pattern.piece_named(name).expect("a piece")].outline;
+    let edge = outline.iter().find(|edge| edge.label.as_deref() == Some(label)).expect("an edge");
+    place(session, name, edge.start)
+}
+
+#[test]
+fn the_pleats_of_the_skirt_lie_folded_to_one_side_all_round() {
+    let session = put_on_coarse(Sample::PleatedSkirt);
+    let pattern = &session.document().pattern;
+    let panels: Vec<_> = pattern.pieces.values().filter(|piece| piece.name.starts_with("pleat ")).collect();
+    assert_eq!(panels.len(), 12);
+    // Along a line half-way down the skirt: the inner fold, the outer fold, and both ends of the part that shows.
+    let opened: Vec<f64> = panels
+        .iter()
+        .map(|panel| {
+            let half_way = |hem: usize, top: usize| {
+                let middle = (panel.outline[hem].start + panel.outline[top].start) / 2.0;
+                (middle, place(&session, &panel.name, middle))
+            };
+            let [inner, outer, from, to] = [(0, 7), (1, 6), (2, 5), (3, 4)].map(|(h, t)| half_way(h, t));
+            let along = (to.1 - from.1).normalize();
+            let before = (outer.1 - inner.1).dot(along);
+            assert!(before < 0.0, "{} lies {before} m over its own panel", panel.name);
+            inner.1.distance(from.1) / inner.0.distance(from.0)
+        })
+        .collect();
+    println!("{opened:.2?} of the pleats' cloth are seen");
+    assert!(opened.iter().sum::<f64>() / 12.0 < 0.5, "{opened:?}");
+}
+
+#[test]
+fn the_cape_hangs_from_the_shoulders_and_is_open_below_its_closing() {
+    let session = put_on_coarse(Sample::Cape);
+    let body = mannequin::default();
+    let throat = ["left", "right"].map(|hand| {
+        start_of(
+            &session,
+            &format!("front {hand}"),
+            if hand == "left" { "closing left" } else { "neck right" },
+        )
+    });
+    let chin = body.landmarks.get("chin").expect("a chin");
+    let bust = body.landmarks.get("bust_front").expect("a bust");
+    for hand in throat {
+        assert!((bust.y..chin.y).contains(&hand.y), "the throat is at {hand}");
+    }
+    let [left, right] = [("front left", "hem left"), ("front right", "front edge right")]
+        .map(|(piece, label)| start_of(&session, piece, label));
+    assert!(left.x - right.x > 0.03, "the fronts end at {left} and {right}");
+}
+
+#[test]
+fn the_cloak_of_the_creature_is_held_at_its_throat_and_lies_along_its_back() {
+    let session = put_on_coarse(Sample::CreatureCloak);
+    let nape = start_of(&session, "cloak right", "back seam");
+    let tail = start_of(&session, "cloak right", "hem");
+    let throat = start_of(&session, "cloak right", "closing");
+    assert!(nape.z.abs() < 0.05 && tail.z.abs() < 0.05, "its back seam is at {nape} and {tail}");
+    assert!(nape.x > 0.3 && tail.x < 0.0, "it slid off: {nape} to {tail}");
+    assert!(throat.y < nape.y - 0.2 && throat.x > nape.x, "its throat is at {throat}, its nape at {nape}");
+}
+
 /// Positions of the fall's outer edge and of the roll line, the upper edge of the stand.
 fn collar(session: &Session) -> [Vec<DVec3>; 2] {
     let snapshot = session.snapshot();

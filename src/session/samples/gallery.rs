@@ -4,8 +4,8 @@ use std::sync::Arc;
 
 use crate::body::Mannequin;
 use crate::draft::{
-    self, Bodice, Bottom, Collar, Design, Dolman, Dungarees, Fall, Form, Hem, Hood, Kind, Neckline,
-    NecklineShape, Opening, Shape, Skirt, Sleeve, Top, Trousers, Upper, Waist,
+    self, Bodice, Bottom, Cape, Collar, Design, Dolman, Dungarees, Fall, Form, Hem, Hood, Kind, Neckline,
+    NecklineShape, Opening, Pleats, Shape, Skirt, Sleeve, Top, Trousers, Upper, Waist,
 };
 use crate::io::sheet;
 use crate::pattern::Pattern;
@@ -24,6 +24,8 @@ pub struct Garment {
 enum Cut {
     Design(Box<Design>),
     Dungarees(Dungarees),
+    Pleats(Pleats),
+    Cape(Cape),
 }
 
 fn drawn(design: Design) -> Cut {
@@ -35,6 +37,8 @@ impl Cut {
         match self {
             Self::Design(design) => design.drafted(form),
             Self::Dungarees(cut) => draft::dungarees(form, cut),
+            Self::Pleats(cut) => draft::pleated_skirt(form, cut),
+            Self::Cape(cut) => draft::cape(form, cut),
         }
     }
 }
@@ -42,16 +46,17 @@ impl Cut {
 /// A document with `garment` drafted for `body`. Panics where it lacks a landmark, which does not happen: this program builds it.
 pub fn document(garment: &Garment, body: &Mannequin) -> Document {
     let form = Form::of(body).expect("a mannequin has its landmarks");
-    let mut pattern = garment.cut.drafted(&form);
+    let body = BodyChoice::Mannequin(body.measurements);
+    laid_out(garment.cut.drafted(&form), body, garment.fabric, garment.dye)
+}
+
+/// A document with `pattern`, its pieces laid out on the table, beside `body`, in this fabric and dye.
+pub fn laid_out(mut pattern: Pattern, body: BodyChoice, fabric: &str, dye: Dye) -> Document {
     finish(&mut pattern);
     sheet::lay_out(&mut pattern);
-    let mut document = Document {
-        pattern: Arc::new(pattern),
-        body: BodyChoice::Mannequin(body.measurements),
-        ..Document::default()
-    };
-    document.fabrics.all = Some(garment.fabric.to_owned());
-    document.dyes.all = garment.dye;
+    let mut document = Document { pattern: Arc::new(pattern), body, ..Document::default() };
+    document.fabrics.all = Some(fabric.to_owned());
+    document.dyes.all = dye;
     document
 }
 
@@ -218,6 +223,26 @@ pub fn shirt() -> Garment {
     Garment { cut: drawn(top(Kind::Collared, upper)), fabric: "cotton", dye: dyed([196, 214, 232]) }
 }
 
+/// A skirt of knife pleats all round, on a waistband.
+pub fn pleated_skirt() -> Garment {
+    let cut = Pleats {
+        count: 6,
+        depth: 0.045,
+        angle: 150_f64.to_radians(),
+        waist_ease: 0.035,
+        hip_ease: -0.01,
+        band: 0.04,
+        length: 0.6,
+    };
+    Garment { cut: Cut::Pleats(cut), fabric: "polyester", dye: dyed([70, 84, 110]) }
+}
+
+/// A cape over shoulders and arms, closed at the throat.
+pub fn cape() -> Garment {
+    let cut = Cape { neckline: close(), length: 0.49, cover: 0.8, closing: 0.05, open: 0.11 };
+    Garment { cut: Cut::Cape(cut), fabric: "wool", dye: dyed([112, 44, 52]) }
+}
+
 fn plain(kind: Kind) -> Design {
     Design { kind, top: None, bottom: None, waist: Waist { ease: 0.035, band: Some(0.04) } }
 }
@@ -265,6 +290,7 @@ fn close() -> Neckline {
     Neckline { shape: NecklineShape::Round, width: 0.083, drops: [0.085, 0.024] }
 }
 
-fn dyed(colour: [u8; 3]) -> Dye {
+/// Plain cloth of this colour, sRGB.
+pub fn dyed(colour: [u8; 3]) -> Dye {
     Dye { colour: Some(colour), ..Dye::default() }
 }

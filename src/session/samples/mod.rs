@@ -1,7 +1,9 @@
 //! Sample garments drafted for the mannequin, with marks or placed round it: what a first-time user opens.
 //!
-//! Every sample is drafted from the mannequin's own measurements, so a sample can be drafted for another body, too.
+//! Every sample but the creature's cloak is drafted from the mannequin's own measurements, so a sample can be drafted for another body,
+//! too.
 
+mod creature;
 mod draft;
 mod dress;
 mod form;
@@ -20,6 +22,8 @@ use crate::pattern::Pattern;
 use crate::session::{BodyChoice, Document, Project};
 use crate::wrap::Marks;
 use form::Form;
+
+pub use creature::seal;
 
 /// Size of the child that children's samples are made for.
 const CHILD: &str = "116";
@@ -69,11 +73,17 @@ pub enum Sample {
     Coat,
     /// A shirt with a collar that turns over.
     Shirt,
+    /// A skirt of knife pleats.
+    PleatedSkirt,
+    /// A cape, closed at the throat.
+    Cape,
+    /// A cloak for a seal.
+    CreatureCloak,
 }
 
 impl Sample {
     /// All samples, in the order of the menu.
-    pub const ALL: [Self; 21] = [
+    pub const ALL: [Self; 24] = [
         Self::Tshirt,
         Self::Skirt,
         Self::Dress,
@@ -95,6 +105,9 @@ impl Sample {
         Self::Dungarees,
         Self::Coat,
         Self::Shirt,
+        Self::PleatedSkirt,
+        Self::Cape,
+        Self::CreatureCloak,
     ];
 
     /// Those with marks, to be wrapped; the others have their pieces placed round the body, to be dressed.
@@ -124,6 +137,9 @@ impl Sample {
             Self::Dungarees => "Dungarees",
             Self::Coat => "Coat",
             Self::Shirt => "Shirt",
+            Self::PleatedSkirt => "Pleated skirt",
+            Self::Cape => "Cape",
+            Self::CreatureCloak => "Creature's cloak",
         }
     }
 
@@ -151,10 +167,13 @@ impl Sample {
             Self::Dungarees => "dungarees",
             Self::Coat => "coat",
             Self::Shirt => "shirt",
+            Self::PleatedSkirt => "pleated-skirt",
+            Self::Cape => "cape",
+            Self::CreatureCloak => "creature-cloak",
         }
     }
 
-    /// Measurements of the mannequin that it is made for: the default one, or a child of 116 cm.
+    /// Measurements of the mannequin that it is made for: the default one, or a child of 116 cm. The creature's cloak is made for none.
     pub fn measurements(self) -> Measurements {
         let child = CHILDREN.into_iter().find(|size| size.name == CHILD);
         match (self, child) {
@@ -163,18 +182,19 @@ impl Sample {
         }
     }
 
-    /// The sample on the mannequin that it is made for.
+    /// The sample on the body that it is made for.
     pub fn usual(self) -> Project {
         let body = mannequin::mannequin(&self.measurements()).unwrap_or_else(|_| mannequin::default());
         self.project(&body)
     }
 
-    /// The sample drafted for `body`, with its marks or placed round the body. Panics where the measurements are those of no
+    /// The sample drafted for `body`, with its marks or placed round the body; the creature's cloak comes with the creature. Panics where the measurements are those of no
     /// mannequin: this one has been built.
     pub fn project(self, body: &Mannequin) -> Project {
         let document = match self.cut() {
             Cut::Marked(drafted) => marked(drafted, body),
             Cut::Placed(garment) => gallery::document(&garment(), body),
+            Cut::Creature(document) => document(),
         };
         Project { document, dressed: None }
     }
@@ -202,6 +222,9 @@ impl Sample {
             Self::Dungarees => Cut::Placed(gallery::dungarees),
             Self::Coat => Cut::Placed(gallery::coat),
             Self::Shirt => Cut::Placed(gallery::shirt),
+            Self::PleatedSkirt => Cut::Placed(gallery::pleated_skirt),
+            Self::Cape => Cut::Placed(gallery::cape),
+            Self::CreatureCloak => Cut::Creature(creature::cloak),
         }
     }
 }
@@ -210,6 +233,8 @@ impl Sample {
 enum Cut {
     Marked(fn(&Form) -> (Pattern, Marks)),
     Placed(fn() -> gallery::Garment),
+    /// On a body of its own.
+    Creature(fn() -> Document),
 }
 
 fn marked(drafted: fn(&Form) -> (Pattern, Marks), body: &Mannequin) -> Document {

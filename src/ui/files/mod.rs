@@ -433,7 +433,7 @@ pub fn there_beside(files: &[(PathBuf, Vec<u8>)]) -> Vec<String> {
     others.map(|(path, _)| path.file_name().unwrap_or_default().to_string_lossy().into_owned()).collect()
 }
 
-/// The project of a sample on the mannequin that it is made for.
+/// The project of a sample on the body that it is made for.
 pub fn sample(sample: Sample) -> Project {
     sample.usual()
 }

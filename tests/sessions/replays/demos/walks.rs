@@ -1,17 +1,15 @@
 //! The walks: each does one of the program's tasks from its beginning, and what must come of it.
 
-use std::f64::consts::TAU;
 use std::sync::Arc;
 
 use glam::{DVec2, DVec3};
 use toile::body::{NamedPose, mannequin};
 use toile::draft::{Design, Form, Kind};
-use toile::geometry::mesh::TriMesh;
 use toile::io::garmentcode;
 use toile::pattern::edit::{PatternEdit, PointRef};
 use toile::pattern::grading::{READY_SIZES, graded};
 use toile::pattern::{EdgeRef, GradeRule, Piece, PlanePose, RulePoint, Seam};
-use toile::session::samples::Sample;
+use toile::session::samples::{Sample, seal};
 use toile::session::{BodyChoice, Command, Dye, Motif, Print, Project};
 use toile::sim::StartChoice;
 use toile::wrap::{ClothSide, Marks};
@@ -111,70 +109,6 @@ pub fn drawing() -> Stage {
     println!("drawing: {started:?}");
     assert!(started.taken().faults.is_empty());
     stage
-}
-
-/// Centre line and radius of the creature, a seal, from tail to nose: x, y, radius, metres.
-const SEAL: [[f64; 3]; 9] = [
-    [-0.80, 0.06, 0.03],
-    [-0.70, 0.08, 0.06],
-    [-0.50, 0.14, 0.12],
-    [-0.20, 0.22, 0.20],
-    [0.10, 0.30, 0.23],
-    [0.35, 0.42, 0.20],
-    [0.52, 0.58, 0.14],
-    [0.64, 0.68, 0.12],
-    [0.80, 0.72, 0.05],
-];
-
-/// A seal that lies on its belly and holds its head up.
-fn seal() -> TriMesh {
-    let (rings, sectors) = (40, 28);
-    let at = |t: f64| {
-        let s = t * (SEAL.len() - 1) as f64;
-        let i = (s as usize).min(SEAL.len() - 2);
-        let [a, b] = [SEAL[i], SEAL[i + 1]];
-        let f = s - i as f64;
-        let f = f * f * (3.0 - 2.0 * f) * 0.5 + f * 0.5;
-        [0, 1, 2].map(|k| a[k] + (b[k] - a[k]) * f)
-    };
-    let mut positions = Vec::new();
-    for i in 0..rings {
-        let t = (f64::from(i) + 0.5) / f64::from(rings);
-        let [x, y, r] = at(t);
-        let [ahead, behind] = [at((t + 0.02).min(1.0)), at((t - 0.02).max(0.0))];
-        let along = DVec3::new(ahead[0] - behind[0], ahead[1] - behind[1], 0.0).normalize();
-        let up = DVec3::Z.cross(along);
-        for k in 0..sectors {
-            let turn = TAU * f64::from(k) / f64::from(sectors);
-            positions.push(DVec3::new(x, y, 0.0) + (DVec3::Z * turn.cos() + up * turn.sin()) * r);
-        }
-    }
-    let ends = [at(0.0), at(1.0)].map(|[x, y, _]| DVec3::new(x, y, 0.0));
-    let [tail, nose] = [positions.len() as u32, positions.len() as u32 + 1];
-    positions.extend(ends);
-    let mut triangles = Vec::new();
-    for k in 0..sectors as u32 {
-        let next = (k + 1) % sectors as u32;
-        for i in 0..rings as u32 - 1 {
-            let [a, b] = [i, i + 1].map(|ring| ring * sectors as u32);
-            triangles.push([a + k, b + next, b + k]);
-            triangles.push([a + k, a + next, b + next]);
-        }
-        let last = (rings as u32 - 1) * sectors as u32;
-        triangles.push([tail, next, k]);
-        triangles.push([nose, last + k, last + next]);
-    }
-    let mut mesh = TriMesh { positions, triangles };
-    let volume: f64 = mesh
-        .triangles
-        .iter()
-        .map(|t| t.map(|v| mesh.positions[v as usize]))
-        .map(|[a, b, c]| a.dot(b.cross(c)))
-        .sum();
-    if volume < 0.0 {
-        mesh.triangles.iter_mut().for_each(|t| t.swap(1, 2));
-    }
-    mesh
 }
 
 pub fn creature() -> Stage {
