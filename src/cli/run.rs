@@ -80,7 +80,7 @@ pub fn choose_cloth(session: &mut Session, options: &ClothOptions) -> Result<(),
 /// The simulation of a session that runs inline.
 pub fn simulation(session: &mut Session) -> Result<&mut Simulation, Failure> {
     let words = "the simulation does not run inline".to_owned();
-    session.runner().simulation().ok_or(Failure::Internal(words.into()))
+    session.runner().simulation().ok_or(Failure::Internal(words))
 }
 
 /// The graphics card to drape any cloth on.

@@ -5,6 +5,9 @@ use glam::Vec3;
 
 /// By how much the end of a rod is domed, in half heights.
 const DOME: f32 = 0.4;
+/// Distance of two points of an axis, in half thicknesses of its rod, from which on they give a direction: at the rounding of
+/// single precision, nearer ones give any.
+const APART: f32 = 0.1;
 
 /// Triangles with what is needed to draw them.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -46,8 +49,12 @@ impl Solid {
         let Section { half_width, half_height, .. } = section;
         let (mut way, mut out) = (Vec3::X, Vec3::Z);
         let mut ends = [Vec3::X; 2];
+        let apart = APART * half_width.min(half_height);
         for (i, (&at, &up)) in axis.iter().zip(up).enumerate() {
-            let along = axis[(i + 1).min(last)] - axis[i.saturating_sub(1)];
+            let is_apart = |p: &&Vec3| p.distance(at) > apart;
+            let before = axis[..i].iter().rev().find(is_apart).unwrap_or(&axis[0]);
+            let after = axis[i + 1..].iter().find(is_apart).unwrap_or(&axis[last]);
+            let along = *after - *before;
             way = along.try_normalize().unwrap_or(way);
             if i == 0 {
                 ends[0] = way;
