@@ -33,7 +33,8 @@ impl Wrinkle {
 
     /// Bending stiffness of the cloth in the wrinkle besides its own, N·m: that of half its width, which bends one way, is then
     /// as stiff against one radian as a pressed fold, as the turns of all its edges add up. Cotton alone (1e-5 N·m) bends under its
-    /// own weight within 2 cm, and a wrinkle 4 cm wide would lie down; with this (4e-4 N·m) it sinks by 0.1 mm.
+    /// own weight within 2 cm, and a wrinkle 4 cm wide would lie down; with this (4e-4 N·m) one 8 mm high keeps 5 to 6 mm in the
+    /// middle of a panel that hangs.
     pub fn stiffness(&self) -> f64 {
         Fold::PRESSED * self.width / 2.0
     }

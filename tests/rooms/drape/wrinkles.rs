@@ -144,8 +144,8 @@ fn a_wrinkle_stays_under_the_weight_of_the_cloth() {
         let wrinkle = Wrinkle { width: 0.04, height };
         let [middle, low] = [0.15, 0.06].map(|y| DVec2::new(0.2, y));
         let (upright, level) = (hung(wrinkle, DVec2::Y, low), hung(wrinkle, DVec2::X, middle));
-        // The edge that is held keeps the cloth above as wide as it lies flat.
-        assert!((0.8..1.1).contains(&upright), "{upright} of its height");
+        // The edge that is held keeps the cloth below it wide, and a ridge needs it narrower.
+        assert!((0.6..1.1).contains(&upright), "{upright} of its height");
         // The cloth below it pulls at it.
         assert!((0.6..1.1).contains(&level), "{level} of its height");
     }

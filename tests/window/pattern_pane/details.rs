@@ -265,10 +265,18 @@ fn a_wrinkle_is_in_the_menu_for_lines_inside_pieces() {
     crate::act(&mut window, "Pattern");
     // The side panel has a box of that name.
     let is_box = |role| role == egui::accesskit::Role::CheckBox;
-    let mut entries = window.get_all_by_label("Wrinkle").filter(|node| !is_box(node.accesskit_node().role()));
-    entries.next().expect("an entry").click();
-    drop(entries);
-    window.run_steps(4);
+    for is_in_view in [false, true] {
+        let mut entries =
+            window.get_all_by_label("Wrinkle").filter(|node| !is_box(node.accesskit_node().role()));
+        let entry = entries.next().expect("an entry");
+        if is_in_view {
+            entry.click();
+        } else {
+            entry.scroll_to_me();
+        }
+        drop(entries);
+        window.run_steps(4);
+    }
     let trims = |window: &Window| piece(&pattern(window), "A").lines[0].edges[0].trims;
     assert_eq!(trims(&window).wrinkle, Some(Wrinkle::USUAL));
     key(&mut window, Modifiers::COMMAND, Key::Z);
