@@ -65,7 +65,7 @@ pub struct Imported {
     /// Why cloth cannot be put on it; empty for a usable body.
     pub problems: Vec<Problem>,
     /// What was repaired and what deserves a look, as messages.
-    pub notes: Vec<String>,
+    pub notes: Vec<Words>,
 }
 
 impl Imported {
@@ -215,43 +215,53 @@ fn where_open(mesh: &TriMesh) -> [f64; 2] {
     [low, high]
 }
 
-fn notes(report: &BodyReport, unit: Unit) -> Vec<String> {
+fn notes(report: &BodyReport, unit: Unit) -> Vec<Words> {
     let mut notes = Vec::new();
-    let mut tell = |n: usize, words: &str| {
+    let mut tell = |n: usize, words: fn(usize) -> Words| {
         if n > 0 {
-            notes.push(format!("{n} {words}"));
+            notes.push(words(n));
         }
     };
-    tell(report.welded_vertices, "vertices lay in the place of another and were joined to it");
-    tell(report.collapsed_triangles, "triangles collapsed by that and were dropped");
-    tell(report.isolated_vertices, "vertices belong to no triangle and were dropped");
-    tell(report.turned_triangles, "triangles looked the other way than their neighbours and were turned");
-    tell(report.thin_triangles, "triangles have no area");
+    tell(report.welded_vertices, |n| {
+        words!("{n} vertices lay in the place of another and were joined to it", n)
+    });
+    tell(report.collapsed_triangles, |n| words!("{n} triangles collapsed by that and were dropped", n));
+    tell(report.isolated_vertices, |n| words!("{n} vertices belong to no triangle and were dropped", n));
+    tell(report.turned_triangles, |n| {
+        words!("{n} triangles looked the other way than their neighbours and were turned", n)
+    });
+    tell(report.thin_triangles, |n| words!("{n} triangles have no area", n));
     if report.components > 1 {
-        tell(report.components, "separate parts make up the body");
+        tell(report.components, |n| words!("{n} separate parts make up the body", n));
     }
     if report.inverted {
-        notes.push("the body was inside out and was turned".to_owned());
+        notes.push(words!("the body was inside out and was turned"));
     }
     notes.extend(unit_note(report.size.y, unit));
     if report.size.z > 1.5 * report.size.y {
-        notes.push("the body is longer along z than along y: if it should stand, turn it to y up".to_owned());
+        notes.push(words!("the body is longer along z than along y: if it should stand, turn it to y up"));
     }
     notes
 }
 
-fn unit_note(height: f64, unit: Unit) -> Option<String> {
+fn unit_note(height: f64, unit: Unit) -> Option<Words> {
     if USUAL_HEIGHT.contains(&height) {
         return None;
     }
-    let guess = match guess_unit(height / unit.metres()) {
+    let told = words!("the body is {height} m high", height = decimal(height, 3));
+    Some(match guess_unit(height / unit.metres()) {
         Some(guess) => {
             let metres = height / unit.metres() * guess.metres();
-            format!("; in {guess} it would be {metres:.2} m: try --unit {guess}")
+            let guess = guess.to_string();
+            let words = words!(
+                "in {unit} it would be {metres} m: try --unit {unit}",
+                unit = guess,
+                metres = decimal(metres, 2)
+            );
+            told.and("; ", words)
         }
-        None => String::new(),
-    };
-    Some(format!("the body is {height:.3} m high{guess}"))
+        None => told,
+    })
 }
 
 #[cfg(test)]

@@ -31,7 +31,8 @@ pub fn check(arguments: &Check) -> Result<(), Failure> {
     let findings = match input::content(&arguments.file, arguments.input.body_file, arguments.input.scale)? {
         Content::Body(body) => {
             let triangles = body.mesh.triangles.len();
-            Findings { triangles, problems: body.problems, notes: body.notes, ..Findings::default() }
+            let notes = body.notes.into_iter().map(String::from).collect();
+            Findings { triangles, problems: body.problems, notes, ..Findings::default() }
         }
         Content::Pattern(pattern) => {
             let mut project = Project::default();

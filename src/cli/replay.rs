@@ -55,7 +55,7 @@ pub fn replay(arguments: &arguments::Replay) -> Result<(), Failure> {
         diverged: diverged.as_ref().map(|d| Diverged {
             tick: d.tick,
             command: d.seq,
-            words: d.words.clone(),
+            words: d.words.to_string(),
         }),
     };
     tell(&outcome, arguments.json)?;

@@ -2,34 +2,51 @@
 
 use std::cell::RefCell;
 use std::collections::BTreeMap;
+use std::fmt;
 use std::path::{Path, PathBuf};
 
 use crate::geometry::mesh::TriMesh;
+use crate::geometry::words::{Words, within_quotes, words};
 use crate::io::gltf::{self, GltfError};
 use crate::io::obj::{self, ObjError};
-use crate::io::words::readable;
+use crate::io::words::readable_words;
 
 /// Why a file cannot be read as a body.
-#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[derive(Clone, Debug, PartialEq, Eq)]
 pub enum BodyFileError {
     /// What is wrong, and where.
-    #[error("{0}")]
-    File(String),
+    File(Words),
     /// The file exceeds a limit; the text names it.
-    #[error("{0}")]
-    OverLimit(String),
+    OverLimit(Words),
 }
+
+impl BodyFileError {
+    /// The error in words.
+    pub fn words(&self) -> &Words {
+        match self {
+            Self::File(words) | Self::OverLimit(words) => words,
+        }
+    }
+}
+
+impl fmt::Display for BodyFileError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        self.words().fmt(f)
+    }
+}
+
+impl std::error::Error for BodyFileError {}
 
 impl From<ObjError> for BodyFileError {
     fn from(error: ObjError) -> Self {
-        let words = error.to_string();
+        let words = error.words();
         if matches!(error, ObjError::OverLimit(_)) { Self::OverLimit(words) } else { Self::File(words) }
     }
 }
 
 impl From<GltfError> for BodyFileError {
     fn from(error: GltfError) -> Self {
-        let words = error.to_string();
+        let words = error.words();
         if matches!(error, GltfError::OverLimit(_)) { Self::OverLimit(words) } else { Self::File(words) }
     }
 }
@@ -53,7 +70,7 @@ pub fn model(
     bytes: &[u8],
     load: &dyn Fn(&Path) -> Result<Vec<u8>, String>,
 ) -> Result<gltf::Model, BodyFileError> {
-    Ok(gltf::read(bytes, &|name| load(&beside(path, name)?))?)
+    Ok(gltf::read(bytes, &|name| load(&beside(path, name)?).map_err(Words::plain))?)
 }
 
 /// Reads the glTF scene in `bytes` as [`model`] does, and returns with it the contents of the buffer files it names, by name.
@@ -64,7 +81,7 @@ pub fn model_with_buffers(
 ) -> Result<(gltf::Model, BTreeMap<String, Vec<u8>>), BodyFileError> {
     let buffers = RefCell::new(BTreeMap::new());
     let kept = |name: &str| {
-        let bytes = load(&beside(path, name)?)?;
+        let bytes = load(&beside(path, name)?).map_err(Words::plain)?;
         buffers.borrow_mut().insert(name.to_owned(), bytes.clone());
         Ok(bytes)
     };
@@ -74,14 +91,17 @@ pub fn model_with_buffers(
 
 /// The path of the file called `name` in the folder of `path`. Names that lead out of that folder are refused, since the file
 /// that names them is not trusted.
-fn beside(path: &Path, name: &str) -> Result<PathBuf, String> {
+fn beside(path: &Path, name: &str) -> Result<PathBuf, Words> {
     let name = name.replace("%20", " ");
     let is_plain = |part: std::path::Component<'_>| matches!(part, std::path::Component::Normal(_));
     let is_inside =
         !name.is_empty() && !name.contains([':', '\\']) && Path::new(&name).components().all(is_plain);
     match is_inside {
         true => Ok(path.parent().unwrap_or(Path::new("")).join(name)),
-        false => Err(readable(&format!("its buffer {name:?} is not a file in its folder"))),
+        false => {
+            let name = within_quotes(&name);
+            Err(readable_words(words!("its buffer \"{name}\" is not a file in its folder", name)))
+        }
     }
 }
 

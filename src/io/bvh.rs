@@ -4,10 +4,14 @@
 //! CS-01-11). The reader is our own: the format is a page long, and the existing crate (`bvh_anim`) has had no release since 2020
 //! and does not name the line of every fault.
 
+use std::fmt;
+
 use glam::DVec3;
 
 use crate::body::pose::motion::{Channel, Clip, ClipJoint};
+use crate::geometry::words::{Value, Words, within_quotes, words};
 use crate::io::Limits;
+use crate::io::words::line;
 
 /// Largest number of joints of a skeleton.
 const MOST_JOINTS: usize = 2000;
@@ -23,20 +27,36 @@ const LARGEST: f64 = 1e7;
 const FRAME_TIME: std::ops::RangeInclusive<f64> = 1e-4..=100.0;
 
 /// Why a file cannot be read as a motion.
-#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[derive(Clone, Debug, PartialEq, Eq)]
 pub enum BvhError {
     /// A fault in one line.
-    #[error("line {line}: {words}")]
     Line {
         /// Line number, from 1.
         line: usize,
         /// What is wrong.
-        words: String,
+        words: Words,
     },
     /// The file exceeds a limit of this reader; the text names the limit.
-    #[error("over the limit: {0}")]
-    OverLimit(String),
+    OverLimit(Words),
 }
+
+impl BvhError {
+    /// The error in words.
+    pub fn words(&self) -> Words {
+        match self {
+            Self::Line { line: number, words } => line(*number).and(": ", words.clone()),
+            Self::OverLimit(what) => words!("over the limit: {what}", what),
+        }
+    }
+}
+
+impl fmt::Display for BvhError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        self.words().fmt(f)
+    }
+}
+
+impl std::error::Error for BvhError {}
 
 /// Whether `bytes` begin like a BVH file.
 pub fn is_bvh(bytes: &[u8]) -> bool {
@@ -48,7 +68,7 @@ pub fn is_bvh(bytes: &[u8]) -> bool {
 pub fn read(bytes: &[u8]) -> Result<Clip, BvhError> {
     let most = Limits::default().file_bytes;
     if bytes.len() > most {
-        return Err(BvhError::OverLimit(format!("the file has more than {most} bytes")));
+        return Err(BvhError::OverLimit(words!("the file has more than {most} bytes", most)));
     }
     // Only names may be in another encoding than UTF-8.
     let text = String::from_utf8_lossy(bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes));
@@ -84,13 +104,20 @@ impl<'a> Lines<'a> {
         self.rest.get(last).map_or(1, |(number, _)| *number)
     }
 
-    fn fault(&self, words: impl Into<String>) -> BvhError {
-        BvhError::Line { line: self.number(), words: words.into() }
+    fn fault(&self, words: Words) -> BvhError {
+        BvhError::Line { line: self.number(), words }
     }
 
+    /// The next line, which should hold the sign or the word `expected`.
     fn line(&mut self, expected: &str) -> Result<&'a str, BvhError> {
+        self.line_of(|| Words::plain(expected))
+    }
+
+    /// The next line, which should be what `expected` says.
+    fn line_of(&mut self, expected: impl FnOnce() -> Words) -> Result<&'a str, BvhError> {
         let Some((_, line)) = self.rest.get(self.next) else {
-            return Err(self.fault(format!("the file ends here, where {expected} should follow")));
+            let expected = expected();
+            return Err(self.fault(words!("the file ends here, where {expected} should follow", expected)));
         };
         self.next += 1;
         Ok(line)
@@ -109,31 +136,38 @@ fn after<'a>(line: &'a str, keyword: &str) -> Option<&'a str> {
         .then_some(rest.trim())
 }
 
-fn short(word: &str) -> String {
-    word.chars().filter(|c| !c.is_control()).take(40).collect()
+/// The beginning of `word` as it stands between quotes.
+fn short(word: &str) -> Value {
+    let short: String = word.chars().filter(|c| !c.is_control()).take(40).collect();
+    within_quotes(&short)
+}
+
+/// That another word than `expected` was found.
+fn unlike(expected: &str, found: &str) -> Words {
+    words!("expected {expected}, found \"{found}\"", expected, found = short(found))
 }
 
 fn number(lines: &Lines<'_>, word: &str) -> Result<f64, BvhError> {
     match word.parse::<f64>() {
         Ok(x) if x.is_finite() && x.abs() <= LARGEST => Ok(x),
-        Ok(x) => Err(lines.fault(format!("{x} is out of range"))),
-        Err(_) => Err(lines.fault(format!("{:?} is no number", short(word)))),
+        Ok(x) => Err(lines.fault(words!("{x} is out of range", x))),
+        Err(_) => Err(lines.fault(words!("\"{value}\" is no number", value = short(word)))),
     }
 }
 
 fn hierarchy(lines: &mut Lines<'_>) -> Result<Vec<ClipJoint>, BvhError> {
     let first = lines.line("HIERARCHY")?;
     if after(first, "HIERARCHY").is_none() {
-        return Err(lines.fault(format!("a motion begins with HIERARCHY, not with {:?}", short(first))));
+        let words = words!("a motion begins with HIERARCHY, not with \"{found}\"", found = short(first));
+        return Err(lines.fault(words));
     }
     let line = lines.line("ROOT")?;
-    let name =
-        after(line, "ROOT").ok_or_else(|| lines.fault(format!("expected ROOT, found {:?}", short(line))))?;
+    let name = after(line, "ROOT").ok_or_else(|| lines.fault(unlike("ROOT", line)))?;
     let mut joints = Vec::new();
     // Indices of the joints whose braces are still open, outermost first.
     let mut open = vec![begin(lines, &mut joints, name, None)?];
     while let Some(&joint) = open.last() {
-        let line = lines.line("a joint, its offset, its channels or }")?;
+        let line = lines.line_of(|| words!("a joint, its offset, its channels or {brace}", brace = "}"))?;
         if line == "}" {
             open.pop();
         } else if let Some(numbers) = after(line, "OFFSET") {
@@ -142,14 +176,19 @@ fn hierarchy(lines: &mut Lines<'_>) -> Result<Vec<ClipJoint>, BvhError> {
             joints[joint].channels = channels(lines, words)?;
         } else if let Some(name) = after(line, "JOINT") {
             if open.len() == DEEPEST {
-                return Err(BvhError::OverLimit(format!("more than {DEEPEST} joints inside each other")));
+                let words = words!("more than {most} joints inside each other", most = DEEPEST);
+                return Err(BvhError::OverLimit(words));
             }
             open.push(begin(lines, &mut joints, name, Some(joint))?);
         } else if after(line, "End").is_some() {
             let end = end(lines, line)?;
             joints[joint].ends.push(end);
         } else {
-            let words = format!("expected JOINT, End Site, OFFSET, CHANNELS or }}, found {:?}", short(line));
+            let words = words!(
+                "expected JOINT, End Site, OFFSET, CHANNELS or {brace}, found \"{found}\"",
+                brace = "}",
+                found = short(line)
+            );
             return Err(lines.fault(words));
         }
     }
@@ -166,13 +205,13 @@ fn begin(
     let (name, has_brace) = name.strip_suffix('{').map_or((name, false), |name| (name.trim(), true));
     let name: String = name.chars().filter(|c| !c.is_control()).collect();
     if name.is_empty() {
-        return Err(lines.fault("a joint without a name"));
+        return Err(lines.fault(words!("a joint without a name")));
     }
     if name.len() > Limits::default().name_bytes {
-        return Err(lines.fault("the name of the joint is too long"));
+        return Err(lines.fault(words!("the name of the joint is too long")));
     }
     if joints.len() == MOST_JOINTS {
-        return Err(BvhError::OverLimit(format!("more than {MOST_JOINTS} joints")));
+        return Err(BvhError::OverLimit(words!("more than {most} joints", most = MOST_JOINTS)));
     }
     if !has_brace {
         brace(lines)?;
@@ -184,7 +223,7 @@ fn begin(
 fn brace(lines: &mut Lines<'_>) -> Result<(), BvhError> {
     match lines.line("{")? {
         "{" => Ok(()),
-        line => Err(lines.fault(format!("expected {{, found {:?}", short(line)))),
+        line => Err(lines.fault(unlike("{", line))),
     }
 }
 
@@ -194,12 +233,11 @@ fn end(lines: &mut Lines<'_>, line: &str) -> Result<DVec3, BvhError> {
         brace(lines)?;
     }
     let line = lines.line("OFFSET")?;
-    let numbers = after(line, "OFFSET")
-        .ok_or_else(|| lines.fault(format!("expected OFFSET, found {:?}", short(line))))?;
+    let numbers = after(line, "OFFSET").ok_or_else(|| lines.fault(unlike("OFFSET", line)))?;
     let offset = offset(lines, numbers)?;
     match lines.line("}")? {
         "}" => Ok(offset),
-        line => Err(lines.fault(format!("expected }}, found {:?}", short(line)))),
+        line => Err(lines.fault(unlike("}", line))),
     }
 }
 
@@ -208,7 +246,7 @@ fn offset(lines: &Lines<'_>, numbers: &str) -> Result<DVec3, BvhError> {
         numbers.split_whitespace().map(|word| number(lines, word)).collect::<Result<_, _>>()?;
     match numbers[..] {
         [x, y, z] => Ok(DVec3::new(x, y, z)),
-        _ => Err(lines.fault(format!("an offset has three numbers, this one {}", numbers.len()))),
+        _ => Err(lines.fault(words!("an offset has three numbers, this one {n}", n = numbers.len()))),
     }
 }
 
@@ -216,8 +254,9 @@ fn channels(lines: &Lines<'_>, words: &str) -> Result<Vec<Channel>, BvhError> {
     let mut words = words.split_whitespace();
     let count = words.next().and_then(|word| word.parse::<usize>().ok());
     let count = count.filter(|&count| count <= MOST_CHANNELS);
-    let count = count
-        .ok_or_else(|| lines.fault(format!("CHANNELS takes a number from 0 to {MOST_CHANNELS} first")))?;
+    let count = count.ok_or_else(|| {
+        lines.fault(words!("CHANNELS takes a number from 0 to {most} first", most = MOST_CHANNELS))
+    })?;
     let mut channels = Vec::new();
     for word in words {
         let channel = match word.to_ascii_lowercase().as_str() {
@@ -227,16 +266,20 @@ fn channels(lines: &Lines<'_>, words: &str) -> Result<Vec<Channel>, BvhError> {
             "xrotation" => Channel::Rotation(0),
             "yrotation" => Channel::Rotation(1),
             "zrotation" => Channel::Rotation(2),
-            _ => return Err(lines.fault(format!("there is no channel {:?}", short(word)))),
+            _ => return Err(lines.fault(words!("there is no channel \"{name}\"", name = short(word)))),
         };
         if channels.contains(&channel) {
-            return Err(lines.fault(format!("the channel {word} is there twice")));
+            return Err(lines.fault(words!("the channel {name} is there twice", name = word)));
         }
         channels.push(channel);
     }
     match channels.len() == count {
         true => Ok(channels),
-        false => Err(lines.fault(format!("{count} channels are announced, {} are named", channels.len()))),
+        false => Err(lines.fault(words!(
+            "{count} channels are announced, {n} are named",
+            count,
+            n = channels.len()
+        ))),
     }
 }
 
@@ -245,19 +288,19 @@ fn header(lines: &mut Lines<'_>) -> Result<(usize, f64), BvhError> {
     let line = lines.line("MOTION")?;
     if after(line, "MOTION").is_none() {
         let words = match after(line, "ROOT") {
-            Some(_) => "a second ROOT: only files of one skeleton are read".to_owned(),
-            None => format!("expected MOTION, found {:?}", short(line)),
+            Some(_) => words!("a second ROOT: only files of one skeleton are read"),
+            None => unlike("MOTION", line),
         };
         return Err(lines.fault(words));
     }
     let frames = told(lines, "Frames")?;
     if frames < 1.0 || frames.fract() != 0.0 {
-        return Err(lines.fault("a motion has one frame or more"));
+        return Err(lines.fault(words!("a motion has one frame or more")));
     }
     let time = told(lines, "Frame Time")?;
     match FRAME_TIME.contains(&time) {
         true => Ok((frames as usize, time)),
-        false => Err(lines.fault(format!("{time} is no number of seconds from frame to frame"))),
+        false => Err(lines.fault(words!("{time} is no number of seconds from frame to frame", time))),
     }
 }
 
@@ -265,38 +308,47 @@ fn header(lines: &mut Lines<'_>) -> Result<(usize, f64), BvhError> {
 fn told(lines: &mut Lines<'_>, name: &str) -> Result<f64, BvhError> {
     let line = lines.line(name)?;
     let value = after(line, name).and_then(|rest| rest.strip_prefix(':'));
-    let value = value.ok_or_else(|| lines.fault(format!("expected \"{name}:\", found {:?}", short(line))))?;
+    let value = value.ok_or_else(|| lines.fault(unlike(&format!("\"{name}:\""), line)))?;
     number(lines, value.trim())
 }
 
 fn rows(lines: &mut Lines<'_>, frames: usize, clip: &mut Clip) -> Result<(), BvhError> {
     let channels = clip.channels();
     if channels == 0 {
-        return Err(lines.fault("no joint has a channel: nothing moves"));
+        return Err(lines.fault(words!("no joint has a channel: nothing moves")));
     }
     if frames.saturating_mul(channels) > MOST_VALUES {
-        return Err(BvhError::OverLimit(format!("more than {MOST_VALUES} numbers in all frames")));
+        return Err(BvhError::OverLimit(words!(
+            "more than {most} numbers in all frames",
+            most = MOST_VALUES
+        )));
     }
     for frame in 0..frames {
-        let line = lines.line(&format!("frame {} of {frames}", frame + 1))?;
+        let line = lines.line_of(|| words!("frame {n} of {frames}", n = frame + 1, frames))?;
         let before = clip.values.len();
         for word in line.split_whitespace() {
             let value = number(lines, word)?;
             if clip.values.len() - before == channels {
-                return Err(lines.fault(format!("a frame has {channels} numbers, this one more")));
+                return Err(lines.fault(words!("a frame has {channels} numbers, this one more", channels)));
             }
             clip.values.push(value);
         }
         let found = clip.values.len() - before;
         if found < channels {
-            return Err(lines.fault(format!("a frame has {channels} numbers, this one {found}")));
+            return Err(lines.fault(words!(
+                "a frame has {channels} numbers, this one {found}",
+                channels,
+                found
+            )));
         }
     }
     if let Some(line) = lines.peek() {
         lines.next += 1;
-        return Err(
-            lines.fault(format!("{frames} frames are announced, and still {:?} follows", short(line)))
-        );
+        return Err(lines.fault(words!(
+            "{frames} frames are announced, and still \"{found}\" follows",
+            frames,
+            found = short(line)
+        )));
     }
     Ok(())
 }

@@ -3,6 +3,7 @@
 use glam::DVec2;
 
 use crate::geometry::mesh::TriMesh;
+use crate::geometry::words::{Words, words};
 use crate::io::obj::{self, ObjError};
 
 /// A cloth mesh and, where the file has texture coordinates, its rest shape in the pattern plane.
@@ -19,47 +20,48 @@ pub fn read(bytes: &[u8]) -> Result<ClothMesh, ObjError> {
     let mesh = obj::read(bytes)?.mesh;
     let text = String::from_utf8_lossy(bytes);
     let (mut coordinates, mut rest) = (Vec::new(), Vec::new());
-    let mut bare = 0;
+    let mut bare = 0_usize;
     for (i, line) in text.lines().enumerate() {
-        let fault = |words: &str| ObjError::Line { line: i + 1, words: words.to_owned() };
+        let fault = |words: Words| ObjError::Line { line: i + 1, words };
         let mut words = line.split('#').next().unwrap_or_default().split_whitespace();
         match words.next() {
             Some("vt") => {
                 let mut number =
                     || words.next().and_then(|w| w.parse::<f64>().ok()).filter(|n| n.is_finite());
                 let (Some(u), Some(v)) = (number(), number()) else {
-                    return Err(fault("a texture coordinate needs two numbers"));
+                    return Err(fault(words!("a texture coordinate needs two numbers")));
                 };
                 coordinates.push(DVec2::new(u, v));
             }
             Some("f") => {
                 let corners: Vec<&str> = words.collect();
                 let [a, b, c] = corners[..] else {
-                    return Err(fault("a face of cloth has three corners"));
+                    return Err(fault(words!("a face of cloth has three corners")));
                 };
                 match [a, b, c].map(|w| w.split('/').nth(1).filter(|t| !t.is_empty())) {
                     [None, None, None] => bare += 1,
                     [Some(a), Some(b), Some(c)] => {
                         let at = |word: &str| {
-                            coordinate(word, &coordinates).ok_or_else(|| fault("there is no such vt"))
+                            coordinate(word, &coordinates).ok_or_else(|| fault(words!("there is no such vt")))
                         };
                         rest.push([at(a)?, at(b)?, at(c)?]);
                     }
-                    _ => return Err(fault("only some corners have a texture coordinate")),
+                    _ => return Err(fault(words!("only some corners have a texture coordinate"))),
                 }
             }
             _ => {}
         }
     }
     if bare > 0 && !rest.is_empty() {
-        return Err(ObjError::File(format!(
-            "{bare} faces have no texture coordinates and {} have",
-            rest.len()
+        return Err(ObjError::File(words!(
+            "{bare} faces have no texture coordinates and {n} have",
+            bare,
+            n = rest.len()
         )));
     }
     // The OBJ reader drops degenerate faces; then `rest` no longer matches the triangles.
     if !rest.is_empty() && rest.len() != mesh.triangles.len() {
-        return Err(ObjError::File("a face of cloth is degenerate".to_owned()));
+        return Err(ObjError::File(words!("a face of cloth is degenerate")));
     }
     Ok(ClothMesh { mesh, rest: (!rest.is_empty()).then_some(rest) })
 }

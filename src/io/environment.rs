@@ -2,6 +2,7 @@
 
 use image::{DynamicImage, ImageFormat, Rgb32FImage};
 
+use crate::geometry::words::{Words, words};
 use crate::io::materials::decoded;
 use crate::io::picture::{decoder, in_words};
 
@@ -13,20 +14,26 @@ pub const MOST_BYTES: usize = 256 << 20;
 ///
 /// # Errors
 /// A message: another format or shape, damaged, larger than [`MOST_BYTES`] or the sides of a picture.
-pub fn read(bytes: &[u8]) -> Result<Rgb32FImage, String> {
+pub fn read(bytes: &[u8]) -> Result<Rgb32FImage, Words> {
     if bytes.len() > MOST_BYTES {
         let (size, most) = (bytes.len() >> 20, MOST_BYTES >> 20);
-        return Err(format!("it has {size} MiB, more than the {most} MiB that an environment may have"));
+        return Err(words!(
+            "it has {size} MiB, more than the {most} MiB that an environment may have",
+            size,
+            most
+        ));
     }
     let formats = [ImageFormat::Png, ImageFormat::Jpeg, ImageFormat::Hdr];
     let format = image::guess_format(bytes).ok().filter(|format| formats.contains(format));
-    let decoder = decoder(bytes, format.ok_or("it is neither PNG, JPEG nor Radiance HDR")?)?;
+    let unknown = || words!("it is neither PNG, JPEG nor Radiance HDR");
+    let decoder = decoder(bytes, format.ok_or_else(unknown)?)?;
     let image = DynamicImage::from_decoder(decoder).map_err(in_words)?;
     let (width, height) = (image.width(), image.height());
     if height == 0 || width != 2 * height {
-        return Err(format!(
-            "it has {width} by {height} pixels; an image of all directions is twice as wide as high \
-             (equirectangular)"
+        return Err(words!(
+            "it has {width} by {height} pixels; an image of all directions is twice as wide as high (equirectangular)",
+            width,
+            height
         ));
     }
     let is_linear = matches!(image, DynamicImage::ImageRgb32F(_) | DynamicImage::ImageRgba32F(_));
@@ -35,7 +42,7 @@ pub fn read(bytes: &[u8]) -> Result<Rgb32FImage, String> {
         image.iter_mut().for_each(|c| *c = decoded(*c));
     }
     if image.iter().any(|c| !c.is_finite() || *c < 0.0) {
-        return Err("it has a pixel that is no brightness".to_owned());
+        return Err(words!("it has a pixel that is no brightness"));
     }
     Ok(image)
 }

@@ -8,7 +8,8 @@ use std::fmt;
 
 use serde::de::{self, Deserialize, Deserializer, MapAccess, SeqAccess, Visitor};
 
-use crate::io::words::readable;
+use crate::geometry::words::{Words, within_quotes, words};
+use crate::io::words::{readable, readable_words};
 
 /// A JSON value.
 #[derive(Clone, Debug, PartialEq)]
@@ -28,37 +29,55 @@ pub enum Node {
 }
 
 /// What is wrong with a JSON text.
-#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[derive(Clone, Debug, PartialEq, Eq)]
 pub enum JsonError {
     /// The text is no JSON.
-    #[error("line {line}, column {column}: {words}")]
     Syntax {
         /// Line number, from 1.
         line: usize,
         /// Column in bytes, from 1.
         column: usize,
         /// The reason.
-        words: String,
+        words: Words,
     },
     /// The text is JSON, but not of the expected shape.
-    #[error("{pointer}: {words}")]
     Content {
         /// JSON pointer of the value; `/` for the whole text.
         pointer: String,
         /// The reason.
-        words: String,
+        words: Words,
     },
 }
+
+impl JsonError {
+    /// The error in words.
+    pub fn words(&self) -> Words {
+        match self {
+            Self::Syntax { line, column, words } => {
+                words!("line {line}, column {column}", line, column).and(": ", words.clone())
+            }
+            Self::Content { pointer, words } => Words::plain(pointer).and(": ", words.clone()),
+        }
+    }
+}
+
+impl fmt::Display for JsonError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        self.words().fmt(f)
+    }
+}
+
+impl std::error::Error for JsonError {}
 
 /// Parses a whole JSON text in UTF-8.
 pub fn parse(bytes: &[u8]) -> Result<Node, JsonError> {
     let bytes = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
     let text = std::str::from_utf8(bytes).map_err(|e| {
         let (line, column) = line_and_column(bytes, e.valid_up_to());
-        JsonError::Syntax { line, column, words: "the file is not UTF-8 text".to_owned() }
+        JsonError::Syntax { line, column, words: words!("the file is not UTF-8 text") }
     })?;
     if text.trim().is_empty() {
-        return Err(JsonError::Syntax { line: 1, column: 1, words: "the file is empty".to_owned() });
+        return Err(JsonError::Syntax { line: 1, column: 1, words: words!("the file is empty") });
     }
     serde_json::from_str(&without_comments(text)).map_err(|e| JsonError::Syntax {
         line: e.line(),
@@ -67,19 +86,19 @@ pub fn parse(bytes: &[u8]) -> Result<Node, JsonError> {
     })
 }
 
-fn in_words(error: &serde_json::Error) -> String {
+fn in_words(error: &serde_json::Error) -> Words {
     let full = error.to_string();
     let place = format!(" at line {} column {}", error.line(), error.column());
     let words = full.strip_suffix(&place).unwrap_or(&full);
     if error.is_eof() {
-        return "the file ends too early: it is truncated".to_owned();
+        return words!("the file ends too early: it is truncated");
     }
     match words {
-        "expected value" => "expected a value (NaN and Infinity are no JSON numbers)".to_owned(),
-        "trailing characters" => "there is text after the end of the JSON".to_owned(),
-        "unexpected end of hex escape" => "half a surrogate pair in a text".to_owned(),
-        "recursion limit exceeded" => "nested too deeply".to_owned(),
-        words => readable(words),
+        "expected value" => words!("expected a value (NaN and Infinity are no JSON numbers)"),
+        "trailing characters" => words!("there is text after the end of the JSON"),
+        "unexpected end of hex escape" => words!("half a surrogate pair in a text"),
+        "recursion limit exceeded" => words!("nested too deeply"),
+        words => Words::plain(readable(words)),
     }
 }
 
@@ -212,21 +231,21 @@ impl<'a> At<'a> {
     }
 
     /// An error at this value.
-    pub fn error(&self, words: impl Into<String>) -> JsonError {
+    pub fn error(&self, words: Words) -> JsonError {
         let pointer = if self.pointer.is_empty() { "/".to_owned() } else { self.pointer.clone() };
-        JsonError::Content { pointer: readable(&pointer), words: readable(&words.into()) }
+        JsonError::Content { pointer: readable(&pointer), words: readable_words(words) }
     }
 
-    fn wrong(&self, expected: &str) -> JsonError {
+    fn wrong(&self, expected: &Words) -> JsonError {
         let found = match self.node {
-            Node::Null => "null",
-            Node::Bool(_) => "true or false",
-            Node::Number(_) => "a number",
-            Node::Text(_) => "a text",
-            Node::List(_) => "a list",
-            Node::Map(_) => "an object",
+            Node::Null => words!("null"),
+            Node::Bool(_) => words!("true or false"),
+            Node::Number(_) => words!("a number"),
+            Node::Text(_) => words!("a text"),
+            Node::List(_) => words!("a list"),
+            Node::Map(_) => words!("an object"),
         };
-        self.error(format!("expected {expected}, found {found}"))
+        self.error(words!("expected {expected}, found {found}", expected, found))
     }
 
     fn below(&self, key: &str, node: &'a Node) -> At<'a> {
@@ -237,7 +256,7 @@ impl<'a> At<'a> {
     /// The entries of an object, in the order of the file.
     pub fn entries(&self) -> Result<Vec<(&'a str, At<'a>)>, JsonError> {
         let Node::Map(entries) = self.node else {
-            return Err(self.wrong("an object"));
+            return Err(self.wrong(&words!("an object")));
         };
         Ok(entries.iter().map(|(k, n)| (k.as_str(), self.below(k, n))).collect())
     }
@@ -245,7 +264,7 @@ impl<'a> At<'a> {
     /// The field `key` of an object; None if it is missing or null.
     pub fn optional(&self, key: &str) -> Result<Option<At<'a>>, JsonError> {
         let Node::Map(entries) = self.node else {
-            return Err(self.wrong("an object"));
+            return Err(self.wrong(&words!("an object")));
         };
         let found = entries.iter().find(|(k, n)| k == key && *n != Node::Null);
         Ok(found.map(|(k, n)| self.below(k, n)))
@@ -253,13 +272,14 @@ impl<'a> At<'a> {
 
     /// The field `key` of an object; an error if it is missing or null.
     pub fn field(&self, key: &str) -> Result<At<'a>, JsonError> {
-        self.optional(key)?.ok_or_else(|| self.error(format!("{key:?} is missing")))
+        let missing = || self.error(words!("\"{key}\" is missing", key = within_quotes(key)));
+        self.optional(key)?.ok_or_else(missing)
     }
 
     /// The items of a list.
     pub fn items(&self) -> Result<Vec<At<'a>>, JsonError> {
         let Node::List(items) = self.node else {
-            return Err(self.wrong("a list"));
+            return Err(self.wrong(&words!("a list")));
         };
         Ok(items.iter().enumerate().map(|(i, n)| self.below(&i.to_string(), n)).collect())
     }
@@ -268,7 +288,8 @@ impl<'a> At<'a> {
     pub fn array<const N: usize>(&self) -> Result<[At<'a>; N], JsonError> {
         let items = self.items()?;
         let count = items.len();
-        items.try_into().map_err(|_| self.error(format!("expected a list of {N}, found {count}")))
+        let wrong = || words!("expected a list of {length}, found {count}", length = N, count);
+        items.try_into().map_err(|_| self.error(wrong()))
     }
 
     /// A list of exactly `N` numbers.
@@ -285,7 +306,7 @@ impl<'a> At<'a> {
     pub fn number(&self) -> Result<f64, JsonError> {
         match self.node {
             Node::Number(x) => Ok(*x),
-            _ => Err(self.wrong("a number")),
+            _ => Err(self.wrong(&words!("a number"))),
         }
     }
 
@@ -294,8 +315,8 @@ impl<'a> At<'a> {
         let x = self.number()?;
         if x.fract() != 0.0 || x < 0.0 || x >= count as f64 {
             return Err(match count {
-                0 => self.error(format!("index {x} is out of range: there is nothing to point to")),
-                _ => self.error(format!("index {x} is out of range 0..={}", count - 1)),
+                0 => self.error(words!("index {x} is out of range: there is nothing to point to", x)),
+                _ => self.error(words!("index {x} is out of range 0..={last}", x, last = count - 1)),
             });
         }
         Ok(x as usize)
@@ -306,7 +327,7 @@ impl<'a> At<'a> {
         match self.node {
             Node::Bool(b) => Ok(*b),
             Node::Number(x) if *x == 0.0 || *x == 1.0 => Ok(*x == 1.0),
-            _ => Err(self.wrong("0 or 1")),
+            _ => Err(self.wrong(&words!("0 or 1"))),
         }
     }
 
@@ -314,7 +335,7 @@ impl<'a> At<'a> {
     pub fn text(&self) -> Result<&'a str, JsonError> {
         match self.node {
             Node::Text(s) => Ok(s),
-            _ => Err(self.wrong("a text")),
+            _ => Err(self.wrong(&words!("a text"))),
         }
     }
 }

@@ -4,40 +4,58 @@
 //! fault, and rewrites `v` and `f` statements in their plainest form, which the crate tobj then reads. Groups, texture
 //! coordinates, normals and materials are not read; files that the text names are never opened.
 
-use std::fmt::Write as _;
+use std::fmt::{self, Write as _};
 
 use glam::DVec3;
 
 use crate::cloth::{ClothState, Garment};
 use crate::geometry::mesh::{TriMesh, vertex_normals};
+use crate::geometry::words::{Words, within_quotes, words};
 use crate::io::Limits;
 use crate::io::atlas::Atlas;
 use crate::io::dressed::{Dressed, TrimArrays};
 use crate::io::mtl::MaterialFile;
 use crate::io::polygon;
+use crate::io::words::line;
 use crate::pattern::Pattern;
 
 /// Budget of corner tests for ear clipping, for all concave faces of a file together; about half a second.
 const EAR_TESTS: usize = 100_000_000;
 
 /// Why a file is not a usable mesh.
-#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[derive(Clone, Debug, PartialEq, Eq)]
 pub enum ObjError {
     /// A fault in one line.
-    #[error("line {line}: {words}")]
     Line {
         /// Line number, from 1.
         line: usize,
         /// What is wrong.
-        words: String,
+        words: Words,
     },
     /// A fault of the whole file.
-    #[error("{0}")]
-    File(String),
+    File(Words),
     /// The file exceeds one of the [`Limits`]; the text names it.
-    #[error("over the limit: {0}")]
-    OverLimit(String),
+    OverLimit(Words),
 }
+
+impl ObjError {
+    /// The error in words.
+    pub fn words(&self) -> Words {
+        match self {
+            Self::Line { line: number, words } => line(*number).and(": ", words.clone()),
+            Self::File(words) => words.clone(),
+            Self::OverLimit(what) => words!("over the limit: {what}", what),
+        }
+    }
+}
+
+impl fmt::Display for ObjError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        self.words().fmt(f)
+    }
+}
+
+impl std::error::Error for ObjError {}
 
 /// Counts of what was left out or corrected while reading.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
@@ -69,10 +87,12 @@ pub struct ObjMesh {
 pub fn read(bytes: &[u8]) -> Result<ObjMesh, ObjError> {
     let limits = Limits::default();
     if bytes.len() > limits.file_bytes {
-        return Err(ObjError::OverLimit(format!("the file has more than {} bytes", limits.file_bytes)));
+        let most = limits.file_bytes;
+        return Err(ObjError::OverLimit(words!("the file has more than {most} bytes", most)));
     }
     if let Some(at) = bytes.iter().position(|&b| b == 0) {
-        return Err(ObjError::File(format!("this is a binary file, no OBJ text (a zero at byte {at})")));
+        let words = words!("this is a binary file, no OBJ text (a zero at byte {n})", n = at);
+        return Err(ObjError::File(words));
     }
     let mut scan = Scan::new(&limits);
     scan.read_all(bytes)?;
@@ -116,7 +136,8 @@ impl<'a> Scan<'a> {
             line += 1;
             if text.len() + joined.len() > self.limits.line_bytes {
                 let most = self.limits.line_bytes;
-                return Err(ObjError::OverLimit(format!("line {line} has more than {most} bytes")));
+                let words = words!("line {number} has more than {most} bytes", number = line, most);
+                return Err(ObjError::OverLimit(words));
             }
             if let Some(begun) = text.strip_suffix(b"\\") {
                 if joined.is_empty() {
@@ -143,10 +164,11 @@ impl<'a> Scan<'a> {
         let Some(keyword) = words.next() else {
             return Ok(());
         };
-        let fault = |words: String| ObjError::Line { line, words };
+        let fault = |words: Words| ObjError::Line { line, words };
         match keyword {
             "v" if self.vertices == self.limits.vertices => {
-                Err(ObjError::OverLimit(format!("line {line}: more than {} vertices", self.limits.vertices)))
+                let words = words!("more than {most} vertices", most = self.limits.vertices);
+                Err(over(line, words))
             }
             "v" => self.vertex(words).map_err(fault),
             "f" | "fo" => self.face(line, words),
@@ -163,10 +185,10 @@ impl<'a> Scan<'a> {
         }
     }
 
-    fn vertex<'t>(&mut self, mut words: impl Iterator<Item = &'t str>) -> Result<(), String> {
+    fn vertex<'t>(&mut self, mut words: impl Iterator<Item = &'t str>) -> Result<(), Words> {
         let mut numbers = [""; 3];
         for slot in &mut numbers {
-            let word = words.next().ok_or("a vertex needs three numbers")?;
+            let word = words.next().ok_or_else(|| words!("a vertex needs three numbers"))?;
             coordinate(word)?;
             *slot = word;
         }
@@ -184,9 +206,7 @@ impl<'a> Scan<'a> {
         for word in words {
             if corners.len() == self.limits.face_corners {
                 let most = self.limits.face_corners;
-                return Err(ObjError::OverLimit(format!(
-                    "line {line}: a face with more than {most} corners"
-                )));
+                return Err(over(line, words!("a face with more than {most} corners", most)));
             }
             let corner = self.corner(word).map_err(|words| ObjError::Line { line, words })?;
             if corner > self.largest.0 {
@@ -203,7 +223,8 @@ impl<'a> Scan<'a> {
         } else {
             self.faces += corners.len() - 2;
             if self.faces > self.limits.faces {
-                return Err(ObjError::OverLimit(format!("more than {} triangles", self.limits.faces)));
+                let words = words!("more than {most} triangles", most = self.limits.faces);
+                return Err(ObjError::OverLimit(words));
             }
             self.face_text.push('f');
             for corner in &corners {
@@ -216,18 +237,20 @@ impl<'a> Scan<'a> {
     }
 
     /// The vertex index of a face corner, from 1. Negative indices count back from the last vertex read.
-    fn corner(&self, word: &str) -> Result<usize, String> {
+    fn corner(&self, word: &str) -> Result<usize, Words> {
         let index = word.split('/').next().unwrap_or_default();
-        let number: i64 = index.parse().map_err(|_| format!("{:?} is no vertex index", short(word)))?;
+        let wrong = || words!("\"{word}\" is no vertex index", word = within_quotes(&short(word)));
+        let number: i64 = index.parse().map_err(|_| wrong())?;
         if number == 0 {
-            return Err("vertex index 0: indices begin with 1".to_owned());
+            return Err(words!("vertex index 0: indices begin with 1"));
         }
         if number > 0 {
-            return usize::try_from(number).map_err(|e| e.to_string());
+            return usize::try_from(number).map_err(|e| Words::plain(e.to_string()));
         }
-        let back = usize::try_from(number.unsigned_abs()).map_err(|e| e.to_string())?;
+        let back = usize::try_from(number.unsigned_abs()).map_err(|e| Words::plain(e.to_string()))?;
         (self.vertices + 1).checked_sub(back).filter(|&v| v > 0).ok_or_else(|| {
-            format!("vertex index {number} is out of range: {} vertices were read so far", self.vertices)
+            let count = self.vertices;
+            words!("vertex index {number} is out of range: {count} vertices were read so far", number, count)
         })
     }
 
@@ -235,7 +258,7 @@ impl<'a> Scan<'a> {
         self.notes.groups += 1;
         if self.notes.groups > self.limits.groups {
             let most = self.limits.groups;
-            return Err(ObjError::OverLimit(format!("line {line}: more than {most} groups")));
+            return Err(over(line, words!("more than {most} groups", most)));
         }
         Ok(())
     }
@@ -246,8 +269,11 @@ impl<'a> Scan<'a> {
         }
         let (largest, line) = self.largest;
         if largest > self.vertices {
-            let words =
-                format!("vertex index {largest} is out of range: the file has {} vertices", self.vertices);
+            let words = words!(
+                "vertex index {number} is out of range: the file has {count} vertices",
+                number = largest,
+                count = self.vertices
+            );
             return Err(ObjError::Line { line, words });
         }
         let text = self.vertex_text + &self.face_text;
@@ -255,25 +281,33 @@ impl<'a> Scan<'a> {
         let mut notes = self.notes;
         let mesh = triangulated(mesh, &arities, &mut notes)?;
         if mesh.triangles.is_empty() {
-            return Err(ObjError::File("every face of the file is degenerate".to_owned()));
+            return Err(ObjError::File(words!("every face of the file is degenerate")));
         }
         Ok(ObjMesh { mesh, notes })
     }
 
-    fn nothing_to_read(&self) -> String {
+    fn nothing_to_read(&self) -> Words {
         let what = match (self.vertices, self.notes.degenerate_faces) {
-            (0, 0) => "the file has no vertices and no faces (no \"v\" and no \"f\" lines)".to_owned(),
-            (0, _) => "the file has no vertices (no \"v\" lines)".to_owned(),
-            (n, 0) => format!("the file has {n} vertices but no faces (no \"f\" lines)"),
-            (_, n) => format!("all {n} faces of the file are degenerate"),
+            (0, 0) => words!("the file has no vertices and no faces (no \"v\" and no \"f\" lines)"),
+            (0, _) => words!("the file has no vertices (no \"v\" lines)"),
+            (n, 0) => words!("the file has {n} vertices but no faces (no \"f\" lines)", n),
+            (_, n) => words!("all {n} faces of the file are degenerate", n),
         };
         match &self.notes.first_unknown {
             None => what,
-            Some((line, word)) => format!(
-                "this is no OBJ mesh: {what}; line {line} begins with {word:?}, which is no OBJ statement"
+            Some((line, word)) => words!(
+                "this is no OBJ mesh: {what}; line {number} begins with \"{word}\", which is no OBJ statement",
+                what,
+                number = line,
+                word = within_quotes(word)
             ),
         }
     }
+}
+
+/// The error for what exceeds a limit in line `number`, from 1.
+fn over(number: usize, words: Words) -> ObjError {
+    ObjError::OverLimit(line(number).and(": ", words))
 }
 
 /// Splits off the first line, without its line end, from the rest. Line ends are LF, CR LF and CR.
@@ -332,18 +366,21 @@ fn is_statement(keyword: &str) -> bool {
     KNOWN.contains(&keyword)
 }
 
-fn coordinate(word: &str) -> Result<f64, String> {
+fn coordinate(word: &str) -> Result<f64, Words> {
     /// Largest absolute coordinate, in the file's unit; a larger body is not one in any unit.
     const LARGEST: f64 = 1e9;
+    let value = || within_quotes(&short(word));
     match word.parse::<f64>() {
-        Ok(x) if x.is_nan() => Err("a coordinate is not a number (NaN)".to_owned()),
-        Ok(x) if x.is_infinite() => Err(format!("the coordinate {:?} is infinite", short(word))),
-        Ok(x) if x.abs() > LARGEST => Err(format!("the coordinate {x:e} is out of range")),
+        Ok(x) if x.is_nan() => Err(words!("a coordinate is not a number (NaN)")),
+        Ok(x) if x.is_infinite() => Err(words!("the coordinate \"{value}\" is infinite", value = value())),
+        Ok(x) if x.abs() > LARGEST => {
+            Err(words!("the coordinate {number} is out of range", number = format!("{x:e}")))
+        }
         Ok(x) => Ok(x),
         Err(_) if word.replace(',', ".").parse::<f64>().is_ok() => {
-            Err(format!("{:?} has a decimal comma; OBJ has decimal points", short(word)))
+            Err(words!("\"{value}\" has a decimal comma; OBJ has decimal points", value = value()))
         }
-        Err(_) => Err(format!("{:?} is no number", short(word))),
+        Err(_) => Err(words!("\"{value}\" is no number", value = value())),
     }
 }
 
@@ -356,9 +393,10 @@ fn load(text: &str) -> Result<(tobj::Mesh, Vec<u32>), ObjError> {
     let options = tobj::LoadOptions { ignore_lines: true, ..tobj::LoadOptions::default() };
     let mut reader = std::io::BufReader::new(text.as_bytes());
     let loaded = tobj::load_obj_buf(&mut reader, &options, |_| Err(tobj::LoadError::OpenFileFailed));
-    let (models, _) = loaded.map_err(|e| ObjError::File(format!("the file cannot be read: {e}")))?;
+    let unread = |why: String| ObjError::File(words!("the file cannot be read: {why}", why));
+    let (models, _) = loaded.map_err(|e| unread(e.to_string()))?;
     let [model] = <[tobj::Model; 1]>::try_from(models)
-        .map_err(|models| ObjError::File(format!("{} meshes where one was written", models.len())))?;
+        .map_err(|models| ObjError::File(words!("{n} meshes where one was written", n = models.len())))?;
     let mut mesh = model.mesh;
     let arities = std::mem::take(&mut mesh.face_arities);
     Ok((mesh, arities))
@@ -377,9 +415,8 @@ fn triangulated(mesh: tobj::Mesh, arities: &[u32], notes: &mut ObjNotes) -> Resu
             [a, b, c] => triangles.push([a, b, c]),
             _ => {
                 let points: Vec<DVec3> = corners.iter().map(|&v| positions[v as usize]).collect();
-                let cut = polygon::triangles(&points, &mut budget).ok_or_else(|| {
-                    ObjError::OverLimit("its concave faces take too long to cut".to_owned())
-                })?;
+                let cut = polygon::triangles(&points, &mut budget)
+                    .ok_or_else(|| ObjError::OverLimit(words!("its concave faces take too long to cut")))?;
                 notes.polygons += 1;
                 notes.concave_polygons += usize::from(cut.concave);
                 triangles.extend(cut.triangles.iter().map(|t| t.map(|k| corners[k])));

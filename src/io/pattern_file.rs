@@ -1,5 +1,8 @@
 //! The result of reading a pattern file: the pattern, or an error.
 
+use std::fmt;
+
+use crate::geometry::words::Words;
 use crate::io::garmentcode::GarmentCodeError;
 use crate::io::scale::ScaleQuestion;
 use crate::pattern::Pattern;
@@ -10,42 +13,55 @@ pub struct ReadPattern {
     /// Pieces and seams, arranged in the pattern plane.
     pub pattern: Pattern,
     /// Notes for the user, one line each.
-    pub notes: Vec<String>,
+    pub notes: Vec<Words>,
 }
 
 /// Why a file cannot be read as a pattern.
-#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[derive(Clone, Debug, PartialEq)]
 pub enum PatternFileError {
     /// A part of the file is faulty.
-    #[error("{place}: {words}")]
     Bad {
         /// The position in the file: "line 12", "/pattern/panels", or the id of an element.
-        place: String,
+        place: Words,
         /// The reason.
-        words: String,
+        words: Words,
     },
     /// The file as a whole is faulty.
-    #[error("{0}")]
-    Whole(String),
+    Whole(Words),
     /// The file exceeds one of the [`Limits`](crate::io::Limits); the text names it.
-    #[error("{0}")]
-    OverLimit(String),
+    OverLimit(Words),
     /// The file does not state its unit of length, or states an unlikely one; the user has to choose.
-    #[error("{0}")]
     Scale(ScaleQuestion),
 }
 
 impl PatternFileError {
-    pub(super) fn bad(place: impl ToString, words: impl ToString) -> Self {
-        Self::Bad { place: place.to_string(), words: words.to_string() }
+    pub(super) fn bad(place: Words, words: Words) -> Self {
+        Self::Bad { place, words }
+    }
+
+    /// The error in words.
+    pub fn words(&self) -> Words {
+        match self {
+            Self::Bad { place, words } => place.clone().and(": ", words.clone()),
+            Self::Whole(words) | Self::OverLimit(words) => words.clone(),
+            Self::Scale(question) => question.words(),
+        }
     }
 }
+
+impl fmt::Display for PatternFileError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        self.words().fmt(f)
+    }
+}
+
+impl std::error::Error for PatternFileError {}
 
 impl From<GarmentCodeError> for PatternFileError {
     fn from(error: GarmentCodeError) -> Self {
         match error {
-            GarmentCodeError::Json(error) => Self::Whole(error.to_string()),
-            error @ GarmentCodeError::OverLimit { .. } => Self::OverLimit(error.to_string()),
+            GarmentCodeError::Json(error) => Self::Whole(error.words()),
+            error @ GarmentCodeError::OverLimit { .. } => Self::OverLimit(error.words()),
         }
     }
 }

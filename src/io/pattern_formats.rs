@@ -1,5 +1,6 @@
 //! The formats of pattern files: add one here. Menus, command line and file dialogs list them from [`PatternFormat::ALL`].
 
+use crate::geometry::words::{Words, words};
 use crate::io::pattern_file::{PatternFileError, ReadPattern};
 use crate::io::pdf::{Paper, PdfError};
 use crate::io::scale::DrawingUnit;
@@ -49,7 +50,7 @@ impl PatternFormat {
 }
 
 /// The extensions of `formats` in words: ".svg, .dxf or .json".
-pub fn endings(formats: impl IntoIterator<Item = PatternFormat>) -> String {
+pub fn endings(formats: impl IntoIterator<Item = PatternFormat>) -> Words {
     any_of(formats.into_iter().map(PatternFormat::ending))
 }
 
@@ -93,14 +94,15 @@ pub fn read_with_rules(
 ) -> Result<ReadPattern, PatternFileError> {
     let limits = Limits::default();
     if bytes.len() > limits.file_bytes {
-        let words = format!("the file has {} bytes; {} are allowed", bytes.len(), limits.file_bytes);
+        let (count, most) = (bytes.len(), limits.file_bytes);
+        let words = words!("the file has {count} bytes; {most} are allowed", count, most);
         return Err(PatternFileError::OverLimit(words));
     }
     let mut read = match format(bytes) {
         Some(PatternFormat::Dxf) => {
             let in_table = |error: PatternFileError| match error {
                 PatternFileError::OverLimit(words) => PatternFileError::OverLimit(words),
-                error => PatternFileError::bad("the rule table beside it", error),
+                error => PatternFileError::bad(words!("the rule table beside it"), error.words()),
             };
             let rules = rules.map(rul::read).transpose().map_err(in_table)?;
             dxf::read_with_rules(bytes, unit, rules.as_ref())?
@@ -108,7 +110,8 @@ pub fn read_with_rules(
         Some(PatternFormat::Svg) => svg::read(bytes, unit)?,
         Some(PatternFormat::Pdf) => {
             let formats = PatternFormat::ALL.into_iter().filter(|format| format.is_read());
-            let words = format!("a PDF is for printing and is not read: {} are", endings(formats));
+            let endings = endings(formats);
+            let words = words!("a PDF is for printing and is not read: {endings} are", endings);
             return Err(PatternFileError::Whole(words));
         }
         Some(PatternFormat::GarmentCode) | None => {

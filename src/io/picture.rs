@@ -2,6 +2,7 @@
 
 use std::io::Cursor;
 
+use crate::geometry::words::{Words, words};
 use crate::io::words::readable;
 use image::{ImageDecoder, ImageFormat, ImageReader, Limits, RgbaImage};
 
@@ -16,14 +17,18 @@ const MEMORY: u64 = 640 << 20;
 ///
 /// # Errors
 /// A message: another format, damaged, or larger than [`MOST_BYTES`] or [`MOST_SIDE`].
-pub fn read(bytes: &[u8]) -> Result<RgbaImage, String> {
+pub fn read(bytes: &[u8]) -> Result<RgbaImage, Words> {
     if bytes.len() > MOST_BYTES {
         let (size, most) = (bytes.len() >> 20, MOST_BYTES >> 20);
-        return Err(format!("it has {size} MiB, more than the {most} MiB that a picture may have"));
+        return Err(words!(
+            "it has {size} MiB, more than the {most} MiB that a picture may have",
+            size,
+            most
+        ));
     }
     let format = image::guess_format(bytes).ok();
     let format = format.filter(|format| [ImageFormat::Png, ImageFormat::Jpeg].contains(format));
-    let mut decoder = decoder(bytes, format.ok_or("it is neither PNG nor JPEG")?)?;
+    let mut decoder = decoder(bytes, format.ok_or_else(|| words!("it is neither PNG nor JPEG"))?)?;
     let turned = decoder.orientation().map_err(in_words)?;
     let mut picture = image::DynamicImage::from_decoder(decoder).map_err(in_words)?;
     picture.apply_orientation(turned);
@@ -31,7 +36,7 @@ pub fn read(bytes: &[u8]) -> Result<RgbaImage, String> {
 }
 
 /// A decoder of `bytes` in a format, of at most [`MOST_SIDE`] pixels a side and a bounded size in memory.
-pub(super) fn decoder(bytes: &[u8], format: ImageFormat) -> Result<impl ImageDecoder + '_, String> {
+pub(super) fn decoder(bytes: &[u8], format: ImageFormat) -> Result<impl ImageDecoder + '_, Words> {
     let mut reader = ImageReader::with_format(Cursor::new(bytes), format);
     let mut limits = Limits::default();
     limits.max_image_width = Some(MOST_SIDE);
@@ -41,17 +46,17 @@ pub(super) fn decoder(bytes: &[u8], format: ImageFormat) -> Result<impl ImageDec
     let decoder = reader.into_decoder().map_err(in_words)?;
     // Not every format asks the limits before it takes the memory of the whole picture.
     if decoder.total_bytes() > MEMORY {
-        return Err(format!("it takes more than {} MiB in memory", MEMORY >> 20));
+        return Err(words!("it takes more than {most} MiB in memory", most = MEMORY >> 20));
     }
     Ok(decoder)
 }
 
-pub(super) fn in_words(error: image::ImageError) -> String {
+pub(super) fn in_words(error: image::ImageError) -> Words {
     match error {
         image::ImageError::Limits(_) => {
-            format!("it is larger than {MOST_SIDE} by {MOST_SIDE} pixels, which a picture may have")
+            words!("it is larger than {most} by {most} pixels, which a picture may have", most = MOST_SIDE)
         }
-        other => format!("it cannot be read: {}", readable(&other.to_string())),
+        other => words!("it cannot be read: {why}", why = readable(&other.to_string())),
     }
 }
 

@@ -20,9 +20,10 @@ use std::path::{Path, PathBuf};
 
 use glam::DVec2;
 
+use crate::geometry::words::{Words, within_quotes, words};
 use crate::io::Limits;
 use crate::io::pattern_file::PatternFileError;
-use crate::io::words::readable;
+use crate::io::words::{self, readable_words};
 use crate::pattern::{GradeRule, SizeRun};
 
 /// Extension of the files.
@@ -71,7 +72,8 @@ struct Reading {
 pub fn read(bytes: &[u8]) -> Result<RuleTable, PatternFileError> {
     let limit = Limits::default().file_bytes;
     if bytes.len() > limit {
-        let words = format!("the rule table has {} bytes; {limit} are allowed", bytes.len());
+        let (count, most) = (bytes.len(), limit);
+        let words = words!("the rule table has {count} bytes; {most} are allowed", count, most);
         return Err(PatternFileError::OverLimit(words));
     }
     // Old files are in the code page of their country; keys and numbers are ASCII in all of them.
@@ -82,20 +84,23 @@ pub fn read(bytes: &[u8]) -> Result<RuleTable, PatternFileError> {
         if line.eq_ignore_ascii_case("END") {
             break;
         }
-        reading.take(line, i + 1).map_err(|words| bad(i + 1, &words))?;
+        reading.take(line, i + 1).map_err(|words| bad(i + 1, words))?;
         if reading.rules.len() > MOST_RULES {
-            return Err(PatternFileError::OverLimit(format!("more than {MOST_RULES} grade rules")));
+            return Err(PatternFileError::OverLimit(words!(
+                "more than {most} grade rules",
+                most = MOST_RULES
+            )));
         }
     }
     reading.finish()
 }
 
-fn bad(line: usize, words: &str) -> PatternFileError {
-    PatternFileError::bad(format!("line {line}"), readable(words))
+fn bad(line: usize, words: Words) -> PatternFileError {
+    PatternFileError::bad(words::line(line), readable_words(words))
 }
 
 impl Reading {
-    fn take(&mut self, line: &str, number: usize) -> Result<(), String> {
+    fn take(&mut self, line: &str, number: usize) -> Result<(), Words> {
         let Some((key, value)) = line.split_once(':') else {
             return match self.open {
                 Some(rule) => self.pairs(rule, line),
@@ -109,12 +114,15 @@ impl Reading {
                 self.unit = Some(match value.to_ascii_uppercase().as_str() {
                     "METRIC" => 1.0 / MILLIMETRES,
                     "ENGLISH" => INCH,
-                    _ => return Err(format!("the units are {value:?}, not METRIC or ENGLISH")),
+                    _ => {
+                        let given = within_quotes(value);
+                        return Err(words!("the units are \"{given}\", not METRIC or ENGLISH", given));
+                    }
                 });
             }
             "NUMBER OF SIZES" => {
-                let count = value.parse().map_err(|_| format!("{value:?} is no number of sizes"))?;
-                self.count = Some((number, count));
+                let wrong = || words!("\"{given}\" is no number of sizes", given = within_quotes(value));
+                self.count = Some((number, value.parse().map_err(|_| wrong())?));
             }
             "SIZE LIST" => self.names = Some(value.split_whitespace().map(str::to_owned).collect()),
             "SAMPLE SIZE" => self.sample = Some((number, value.to_owned())),
@@ -125,24 +133,27 @@ impl Reading {
         Ok(())
     }
 
-    fn begin(&mut self, value: &str, number: usize) -> Result<(), String> {
+    fn begin(&mut self, value: &str, number: usize) -> Result<(), Words> {
         let mut words = value.splitn(2, char::is_whitespace);
         let kind = words.next().unwrap_or_default();
         if !kind.eq_ignore_ascii_case("DELTA") {
-            return Err(format!("a rule of the kind {kind:?}: only DELTA is known"));
+            let kind = within_quotes(kind);
+            return Err(words!("a rule of the kind \"{kind}\": only DELTA is known", kind));
         }
         let rest = words.next().unwrap_or_default().trim_start();
         let end = rest.find(|c: char| !c.is_ascii_digit()).unwrap_or(rest.len());
-        let rule: u32 = rest[..end].parse().map_err(|_| format!("{value:?} names no rule by its number"))?;
+        let wrong = || words!("\"{given}\" names no rule by its number", given = within_quotes(value));
+        let rule: u32 = rest[..end].parse().map_err(|_| wrong())?;
         if self.rules.insert(rule, (number, Vec::new())).is_some() {
-            return Err(format!("rule {rule} is there twice"));
+            return Err(words!("rule {n} is there twice", n = rule));
         }
         self.open = Some(rule);
         self.pairs(rule, &rest[end..])
     }
 
     /// Takes the pairs "x, y" of a line.
-    fn pairs(&mut self, rule: u32, line: &str) -> Result<(), String> {
+    fn pairs(&mut self, rule: u32, line: &str) -> Result<(), Words> {
+        let of = |words: Words| words!("rule {n}", n = rule).and(": ", words);
         // Blanks beside a comma belong to its pair; others are between pairs.
         let mut numbers: Vec<f64> = Vec::new();
         let mut commas = 0;
@@ -151,21 +162,22 @@ impl Reading {
                 "," => {
                     commas += 1;
                     if numbers.len() != 2 * commas - 1 {
-                        return Err(format!("rule {rule}: a comma is not inside a pair of numbers"));
+                        return Err(of(words!("a comma is not inside a pair of numbers")));
                     }
                 }
                 _ => {
-                    let value: f64 =
-                        word.parse().map_err(|_| format!("rule {rule}: {word:?} is no number"))?;
+                    let given = || within_quotes(word);
+                    let wrong = || of(words!("\"{value}\" is no number", value = given()));
+                    let value: f64 = word.parse().map_err(|_| wrong())?;
                     if !value.is_finite() {
-                        return Err(format!("rule {rule}: {word:?} is no finite number"));
+                        return Err(of(words!("\"{value}\" is no finite number", value = given())));
                     }
                     numbers.push(value);
                 }
             }
         }
         if numbers.len() != 2 * commas {
-            return Err(format!("rule {rule}: a number without a partner"));
+            return Err(of(words!("a number without a partner")));
         }
         let (_, pairs) = self.rules.entry(rule).or_default();
         pairs.extend(numbers.chunks_exact(2).map(|pair| DVec2::new(pair[0], pair[1])));
@@ -173,24 +185,31 @@ impl Reading {
     }
 
     fn finish(self) -> Result<RuleTable, PatternFileError> {
-        let whole = |words: &str| PatternFileError::Whole(words.to_owned());
-        let names = self.names.ok_or_else(|| whole("this is no grade rule table: it has no SIZE LIST"))?;
-        let (line, sample) = self.sample.ok_or_else(|| whole("the rule table names no SAMPLE SIZE"))?;
+        let whole = PatternFileError::Whole;
+        let no_names = || whole(words!("this is no grade rule table: it has no SIZE LIST"));
+        let names = self.names.ok_or_else(no_names)?;
+        let no_sample = || whole(words!("the rule table names no SAMPLE SIZE"));
+        let (line, sample) = self.sample.ok_or_else(no_sample)?;
         if let Some((line, count)) = self.count.filter(|(_, count)| *count != names.len()) {
-            return Err(bad(line, &format!("{count} sizes are announced, but {} are listed", names.len())));
+            let listed = names.len();
+            return Err(bad(
+                line,
+                words!("{count} sizes are announced, but {listed} are listed", count, listed),
+            ));
         }
         let Some(sizes) = SizeRun::new(names.iter().map(String::as_str), &sample) else {
-            return Err(bad(line, &format!("the sample size {sample:?} is not among the sizes listed")));
+            let name = within_quotes(&sample);
+            return Err(bad(line, words!("the sample size \"{name}\" is not among the sizes listed", name)));
         };
         if let Some(words) = sizes.problem() {
-            return Err(PatternFileError::Whole(readable(&words)));
+            return Err(whole(readable_words(words)));
         }
-        let unit = self.unit.ok_or_else(|| whole("the rule table names no UNITS"))?;
+        let unit = self.unit.ok_or_else(|| whole(words!("the rule table names no UNITS")))?;
         let mut rules = BTreeMap::new();
         for (number, (line, pairs)) in self.rules {
             let rule = GradeRule(pairs).mapped(|by| by * unit).from_size(sizes.base);
             if let Some(words) = rule.problem(sizes.len(), sizes.base) {
-                return Err(bad(line, &format!("rule {number}: {words}")));
+                return Err(bad(line, words!("rule {n}", n = number).and(": ", words)));
             }
             rules.insert(number, rule);
         }

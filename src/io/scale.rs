@@ -5,6 +5,8 @@ use std::str::FromStr;
 
 use glam::DVec2;
 
+use crate::geometry::words::{Words, decimal, words};
+
 /// A unit of length that the numbers of a drawing may be in.
 #[derive(
     Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, serde::Serialize, serde::Deserialize,
@@ -101,7 +103,7 @@ impl FromStr for DrawingUnit {
 #[derive(Clone, Debug, PartialEq)]
 pub struct ScaleQuestion {
     /// Why the unit is not known: one sentence without its full stop.
-    pub why: String,
+    pub why: Words,
     /// Width and height of the largest piece, in units of the drawing.
     pub largest: DVec2,
     /// Units to choose from, likely ones first.
@@ -115,15 +117,25 @@ impl ScaleQuestion {
     }
 
     /// A choice in words: "mm (the largest piece is 30.0 × 62.0 cm)".
-    pub fn words(&self, unit: DrawingUnit) -> String {
+    fn choice(&self, unit: DrawingUnit) -> Words {
         let size = self.size(unit) * 100.0;
-        format!("{unit} (the largest piece is {:.1} × {:.1} cm)", size.x, size.y)
+        words!(
+            "{unit} (the largest piece is {width} × {height} cm)",
+            unit = unit.short(),
+            width = decimal(size.x, 1),
+            height = decimal(size.y, 1)
+        )
+    }
+
+    /// The question in words, with its choices.
+    pub fn words(&self) -> Words {
+        let choices = Words::joined(self.candidates.iter().map(|&unit| self.choice(unit)), ", ");
+        words!("{why}; its unit may be {choices}", why = self.why, choices)
     }
 }
 
 impl fmt::Display for ScaleQuestion {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let each: Vec<String> = self.candidates.iter().map(|&unit| self.words(unit)).collect();
-        write!(f, "{}; its unit may be {}", self.why, each.join(", "))
+        self.words().fmt(f)
     }
 }

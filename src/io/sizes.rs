@@ -1,8 +1,11 @@
 //! Reads size tables (CSV): a header that names measurements of the mannequin, then a row for each size, its name first.
 
+use std::fmt;
+
 use crate::body::Unit;
 use crate::body::mannequin::Measurements;
-use crate::io::words::readable;
+use crate::geometry::words::{Value, Words, within_quotes, words};
+use crate::io::words::readable_words;
 
 /// Largest size of a table, bytes.
 const MOST_BYTES: usize = 1 << 20;
@@ -12,33 +15,51 @@ const MOST_SIZES: usize = 1000;
 const LONGEST: f64 = 10.0;
 
 /// Why a file cannot be read as a size table.
-#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[derive(Clone, Debug, PartialEq, Eq)]
 pub enum SizesError {
     /// The file as a whole is faulty.
-    #[error("{0}")]
-    File(String),
+    File(Words),
     /// A cell is faulty.
-    #[error("row {row}, column {column}: {words}")]
     Cell {
         /// Line number in the file, from 1.
         row: u64,
         /// Column number, from 1, and, below the header, the column's title.
         column: String,
         /// What is wrong.
-        words: String,
+        words: Words,
     },
     /// A size is faulty in a way that follows from several of its cells.
-    #[error("row {row}: {words}")]
     Row {
         /// Line number in the file, from 1.
         row: u64,
         /// What is wrong.
-        words: String,
+        words: Words,
     },
     /// The table exceeds a limit; the text names it.
-    #[error("over the limit: {0}")]
-    OverLimit(String),
+    OverLimit(Words),
 }
+
+impl SizesError {
+    /// The error in words.
+    pub fn words(&self) -> Words {
+        match self {
+            Self::File(words) => words.clone(),
+            Self::Cell { row, column, words } => {
+                words!("row {row}, column {column}", row, column).and(": ", words.clone())
+            }
+            Self::Row { row, words } => words!("row {row}", row).and(": ", words.clone()),
+            Self::OverLimit(what) => words!("over the limit: {what}", what),
+        }
+    }
+}
+
+impl fmt::Display for SizesError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        self.words().fmt(f)
+    }
+}
+
+impl std::error::Error for SizesError {}
 
 /// A size of the table: a name and its body measurements.
 #[derive(Clone, Debug, PartialEq)]
@@ -61,13 +82,12 @@ impl Size {
     pub fn checked(&self) -> Result<Measurements, SizesError> {
         self.measurements.check().map(|()| self.measurements).map_err(|error| {
             let column = self.given.iter().find(|(name, _)| *name == error.name);
-            let row = self.row;
+            let (row, name) = (self.row, &self.name);
             match column {
-                Some((_, column)) => cell(row, column, format!("size {}: {error}", self.name)),
+                Some((_, column)) => cell(row, column, words!("size {name}", name).and(": ", error.words())),
                 None => {
-                    let words =
-                        format!("size {}, what follows from its other measurements: {error}", self.name);
-                    SizesError::Row { row, words }
+                    let words = words!("size {name}, what follows from its other measurements", name);
+                    SizesError::Row { row, words: words.and(": ", error.words()) }
                 }
             }
         })
@@ -78,7 +98,14 @@ impl Size {
 pub fn chosen<'a>(sizes: &'a [Size], name: &str) -> Result<&'a Size, SizesError> {
     let found = sizes.iter().find(|size| size.name == name.trim());
     let names = || sizes.iter().map(|size| size.name.as_str()).collect::<Vec<_>>().join(", ");
-    found.ok_or_else(|| SizesError::File(format!("there is no size {name:?} in it; there are {}", names())))
+    found.ok_or_else(|| {
+        let name = within_quotes(name);
+        SizesError::File(words!(
+            "there is no size \"{name}\" in it; there are {names}",
+            name,
+            names = names()
+        ))
+    })
 }
 
 /// A column of the table: its measurement and unit.
@@ -94,11 +121,11 @@ struct Column {
 /// measurement out.
 pub fn read(bytes: &[u8]) -> Result<Vec<Size>, SizesError> {
     if bytes.len() > MOST_BYTES {
-        return Err(SizesError::OverLimit(format!("the file has more than {MOST_BYTES} bytes")));
+        return Err(SizesError::OverLimit(words!("the file has more than {most} bytes", most = MOST_BYTES)));
     }
     let bytes = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
     let text = std::str::from_utf8(bytes).map_err(|e| {
-        SizesError::File(format!("it is no text in UTF-8, from byte {} on", e.valid_up_to() + 1))
+        SizesError::File(words!("it is no text in UTF-8, from byte {n} on", n = e.valid_up_to() + 1))
     })?;
     let delimiter = delimiter(text);
     let mut rows = csv::ReaderBuilder::new();
@@ -106,7 +133,7 @@ pub fn read(bytes: &[u8]) -> Result<Vec<Size>, SizesError> {
     let mut columns: Option<Vec<Column>> = None;
     let mut sizes: Vec<Size> = Vec::new();
     for row in rows.from_reader(text.as_bytes()).records() {
-        let cells = row.map_err(|e| SizesError::File(e.to_string()))?;
+        let cells = row.map_err(|e| SizesError::File(Words::plain(e.to_string())))?;
         let line = cells.position().map_or(1, |position| line(text, position));
         if cells.iter().all(str::is_empty) {
             continue; // Spreadsheets write rows of nothing below the last.
@@ -117,22 +144,22 @@ pub fn read(bytes: &[u8]) -> Result<Vec<Size>, SizesError> {
         };
         let size = size(&cells, line, columns, delimiter != b',')?;
         if sizes.iter().any(|known| known.name == size.name) {
-            return Err(cell(line, "1", format!("the size {} is there twice", size.name)));
+            return Err(cell(line, "1", words!("the size {name} is there twice", name = size.name)));
         }
         sizes.push(size);
         if sizes.len() > MOST_SIZES {
-            return Err(SizesError::OverLimit(format!("more than {MOST_SIZES} sizes")));
+            return Err(SizesError::OverLimit(words!("more than {most} sizes", most = MOST_SIZES)));
         }
     }
     match (columns, sizes.is_empty()) {
-        (None, _) => Err(SizesError::File("the file is empty".to_owned())),
-        (_, true) => Err(SizesError::File("there is no size below the header".to_owned())),
+        (None, _) => Err(SizesError::File(words!("the file is empty"))),
+        (_, true) => Err(SizesError::File(words!("there is no size below the header"))),
         (_, false) => Ok(sizes),
     }
 }
 
-fn cell(row: u64, column: impl Into<String>, words: impl Into<String>) -> SizesError {
-    SizesError::Cell { row, column: column.into(), words: readable(&words.into()) }
+fn cell(row: u64, column: impl Into<String>, words: Words) -> SizesError {
+    SizesError::Cell { row, column: column.into(), words: readable_words(words) }
 }
 
 /// The line in which a row begins, from 1.
@@ -156,18 +183,18 @@ fn header(cells: &csv::StringRecord, line: u64) -> Result<Vec<Column>, SizesErro
         let number = (i + 1).to_string();
         let (name, unit) = named(head).map_err(|words| cell(line, &number, words))?;
         if columns.iter().any(|known| known.name == name) {
-            return Err(cell(line, &number, format!("the measurement {name} is there twice")));
+            return Err(cell(line, &number, words!("the measurement {name} is there twice", name)));
         }
-        columns.push(Column { name, unit, place: format!("{number} ({})", short(head)) });
+        columns.push(Column { name, unit, place: format!("{number} ({})", beginning(head)) });
     }
     match columns.is_empty() {
-        true => Err(cell(line, "2", format!("there is no measurement; there are {}", known()))),
+        true => Err(cell(line, "2", words!("there is no measurement; there are {names}", names = known()))),
         false => Ok(columns),
     }
 }
 
 /// Reads a column title, such as "bust", "Upper_arm (mm)", "hip [in]" or "waist cm", as a measurement and its unit.
-fn named(head: &str) -> Result<(&'static str, Unit), String> {
+fn named(head: &str) -> Result<(&'static str, Unit), Words> {
     let letters = |text: &str| -> String {
         text.chars().filter(|c| c.is_alphanumeric()).collect::<String>().to_lowercase()
     };
@@ -182,8 +209,12 @@ fn named(head: &str) -> Result<(&'static str, Unit), String> {
     let (text, unit) = head.rsplit_once(['(', '[', ' ', '_', '/']).unwrap_or((head, ""));
     match (measurement(text), unit.parse::<Unit>()) {
         (Some(name), Ok(unit)) => Ok((name, unit)),
-        (Some(_), Err(why)) => Err(why.to_string()),
-        (None, _) => Err(format!("there is no measurement {:?}; there are {}", short(head), known())),
+        (Some(_), Err(why)) => Err(Words::plain(why.to_string())),
+        (None, _) => Err(words!(
+            "there is no measurement \"{name}\"; there are {names}",
+            name = short(head),
+            names = known()
+        )),
     }
 }
 
@@ -194,12 +225,12 @@ fn known() -> String {
 fn size(cells: &csv::StringRecord, line: u64, columns: &[Column], comma: bool) -> Result<Size, SizesError> {
     let name: String = cells.get(0).into_iter().flat_map(str::chars).filter(|c| !c.is_control()).collect();
     if name.is_empty() {
-        return Err(cell(line, "1", "a size without a name"));
+        return Err(cell(line, "1", words!("a size without a name")));
     }
     if cells.len() > columns.len() + 1 {
-        let words = format!(
-            "there is no measurement at the head of this cell, {:?}",
-            short(&cells[columns.len() + 1])
+        let words = words!(
+            "there is no measurement at the head of this cell, \"{text}\"",
+            text = short(&cells[columns.len() + 1])
         );
         return Err(cell(line, (columns.len() + 2).to_string(), words));
     }
@@ -208,7 +239,8 @@ fn size(cells: &csv::StringRecord, line: u64, columns: &[Column], comma: bool) -
         let text = if comma { text.replace(',', ".") } else { text.to_owned() };
         let metres = text.parse::<f64>().map_or(f64::NAN, |number| number * column.unit.metres());
         if !(metres > 0.0 && metres <= LONGEST) {
-            let words = format!("{:?} is no length in {}", short(&text), column.unit);
+            let (text, unit) = (short(&text), column.unit.to_string());
+            let words = words!("\"{text}\" is no length in {unit}", text, unit);
             return Err(cell(line, &column.place, words));
         }
         given.push((column.name, metres));
@@ -218,8 +250,13 @@ fn size(cells: &csv::StringRecord, line: u64, columns: &[Column], comma: bool) -
     Ok(Size { name, measurements: Measurements::completed(of), row: line, given: places })
 }
 
-fn short(text: &str) -> String {
+fn beginning(text: &str) -> String {
     text.chars().filter(|c| !c.is_control()).take(40).collect()
+}
+
+/// The beginning of `text` as it stands between quotes.
+fn short(text: &str) -> Value {
+    within_quotes(&beginning(text))
 }
 
 #[cfg(test)]

@@ -10,7 +10,7 @@ use serde::{Deserialize, Serialize, Serializer};
 
 use crate::body::{Imported, Unit, UpAxis};
 use crate::geometry::mesh::TriMesh;
-use crate::geometry::words::{Words, words};
+use crate::geometry::words::{Words, within_quotes, words};
 use crate::io::gltf;
 use crate::io::moving_body::MovingBody;
 use crate::session::body_choice::BodyChoice;
@@ -52,15 +52,17 @@ pub struct Animations {
 
 impl Animations {
     /// Reads the animations in `file`, and the body at rest. The error says in words why there are none.
-    pub fn new(file: AnimatedFile) -> Result<(Self, Imported), String> {
+    pub fn new(file: AnimatedFile) -> Result<(Self, Imported), Words> {
         let load = |name: &str| {
             let buffer = file.buffers.get(name).cloned();
-            buffer.ok_or_else(|| format!("its buffer {name:?} was not kept with it"))
+            let lost = || words!("its buffer \"{name}\" was not kept with it", name = within_quotes(name));
+            buffer.ok_or_else(lost)
         };
-        let model = gltf::read(&file.bytes, &load).map_err(|why| format!("{}: {why}", file.name))?;
+        let told = |why: Words| Words::plain(&file.name).and(": ", why);
+        let model = gltf::read(&file.bytes, &load).map_err(|why| told(why.words()))?;
         let (body, imported) = MovingBody::new(model, file.up, file.unit);
         if body.animations().next().is_none() {
-            return Err(format!("there is no animation in {}", file.name));
+            return Err(words!("there is no animation in {name}", name = file.name));
         }
         Ok((Self { body, mesh: imported.mesh.clone(), file }, imported))
     }
@@ -132,7 +134,7 @@ impl TryFrom<AnimatedFile> for Animations {
     type Error = String;
 
     fn try_from(file: AnimatedFile) -> Result<Self, String> {
-        Self::new(file).map(|(animations, _)| animations)
+        Self::new(file).map(|(animations, _)| animations).map_err(String::from)
     }
 }
 

@@ -38,7 +38,7 @@ pub struct ImageFile {
     /// Content of the file: PNG or JPEG.
     pub bytes: Vec<u8>,
     /// The picture, once it was asked for.
-    picture: OnceLock<Result<Arc<RgbaImage>, String>>,
+    picture: OnceLock<Result<Arc<RgbaImage>, Words>>,
 }
 
 #[derive(Serialize, Deserialize)]
@@ -55,9 +55,9 @@ impl ImageFile {
     }
 
     /// The picture. The error says in words why it cannot be shown; the file is kept all the same.
-    pub fn picture(&self) -> Result<&Arc<RgbaImage>, &str> {
+    pub fn picture(&self) -> Result<&Arc<RgbaImage>, &Words> {
         let read = || picture::read(&self.bytes).map(Arc::new);
-        self.picture.get_or_init(read).as_ref().map_err(String::as_str)
+        self.picture.get_or_init(read).as_ref()
     }
 }
 
@@ -203,7 +203,7 @@ impl Artwork {
     }
 
     /// The images that cannot be shown: their names and the reasons.
-    pub fn unreadable(&self) -> impl Iterator<Item = (&str, &str)> {
+    pub fn unreadable(&self) -> impl Iterator<Item = (&str, &Words)> {
         self.images.values().filter_map(|file| Some((file.name.as_str(), file.picture().err()?)))
     }
 
@@ -290,7 +290,7 @@ mod tests {
         let id = ImageId(artwork.fresh());
         artwork.images.insert(id, Arc::new(ImageFile::new("logo.png", vec![1, 2, 3])));
         assert_eq!(artwork.problem(|_| true), None);
-        let told: Vec<(&str, &str)> = artwork.unreadable().collect();
+        let told: Vec<(&str, &str)> = artwork.unreadable().map(|(name, why)| (name, why.as_str())).collect();
         assert!(told.len() == 1 && told[0].0 == "logo.png" && told[0].1.contains("PNG"), "{told:?}");
         let text = serde_json::to_string(&artwork).expect("JSON");
         assert_eq!(serde_json::from_str::<Artwork>(&text).expect("read"), artwork);

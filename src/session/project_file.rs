@@ -3,10 +3,10 @@
 //! A file on disk is always the whole old or the whole new version: the new bytes are parsed once as a check, written next to the
 //! old file, then renamed over it. The previous version stays as `NAME.toile.bak`.
 
-use std::fs;
 use std::io::{Cursor, Read, Write};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
+use std::{fmt, fs};
 
 use glam::DVec3;
 use serde::{Deserialize, Serialize};
@@ -15,8 +15,9 @@ use zip::{CompressionMethod, ZipArchive, ZipWriter};
 
 use crate::cloth::ClothState;
 use crate::geometry::mesh::TriMesh;
+use crate::geometry::words::{Words, within_quotes, words};
 use crate::io::FILE_BYTES;
-use crate::io::words::readable;
+use crate::io::words::readable_words;
 use crate::session::body_choice::BodyChoice;
 use crate::session::project::Project;
 use crate::session::whole_file;
@@ -37,21 +38,55 @@ const CLOTH_POSITIONS: &str = "cloth-positions.f64";
 const CLOTH_MAPPED: &str = "cloth-mapped.u8";
 
 /// Why a project file could not be read or written.
-#[derive(Debug, thiserror::Error)]
+#[derive(Debug)]
 pub enum ProjectFileError {
     /// Error of the file system.
-    #[error("{path}: {source}", path = path.display())]
     File { path: PathBuf, source: std::io::Error },
     /// The contents are not a valid project.
-    #[error("{0}")]
-    Contents(String),
+    Contents(Words),
     /// The file is larger than this program reads.
-    #[error("{0}")]
-    TooLarge(String),
+    TooLarge(Words),
 }
 
-fn contents(words: impl std::fmt::Display) -> ProjectFileError {
-    ProjectFileError::Contents(readable(&words.to_string()))
+impl ProjectFileError {
+    /// The error in words.
+    pub fn words(&self) -> Words {
+        match self {
+            Self::File { path, source } => {
+                Words::plain(path.display().to_string()).and(": ", whole_file::words(source))
+            }
+            Self::Contents(words) | Self::TooLarge(words) => words.clone(),
+        }
+    }
+}
+
+impl fmt::Display for ProjectFileError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        self.words().fmt(f)
+    }
+}
+
+impl std::error::Error for ProjectFileError {
+    fn source(&self) -> Option<&(dyn std::error::Error + 'static)> {
+        match self {
+            Self::File { source, .. } => Some(source),
+            Self::Contents(_) | Self::TooLarge(_) => None,
+        }
+    }
+}
+
+fn contents(words: Words) -> ProjectFileError {
+    ProjectFileError::Contents(readable_words(words))
+}
+
+/// The error for what a library says against the contents.
+fn library(error: impl fmt::Display) -> ProjectFileError {
+    contents(Words::plain(error.to_string()))
+}
+
+/// The error for contents that are no project, for the reason `why` of a library.
+fn no_project(why: impl fmt::Display) -> ProjectFileError {
+    contents(words!("not a project: {why}", why = why.to_string()))
 }
 
 #[derive(Serialize, Deserialize)]
@@ -76,7 +111,7 @@ pub fn is_project(bytes: &[u8]) -> bool {
 /// Reads the file at `path`.
 pub fn open(path: &Path) -> Result<Project, ProjectFileError> {
     let bytes = whole_file::read(path, MOST_BYTES).map_err(|source| match source.kind() {
-        std::io::ErrorKind::FileTooLarge => ProjectFileError::TooLarge(source.to_string()),
+        std::io::ErrorKind::FileTooLarge => ProjectFileError::TooLarge(whole_file::words(&source)),
         _ => file_error(path, source),
     })?;
     from_bytes(&bytes)
@@ -92,7 +127,7 @@ pub fn save(path: &Path, project: &Project) -> Result<(), ProjectFileError> {
 pub fn save_over(path: &Path, project: &Project) -> Result<(), ProjectFileError> {
     let bytes = to_bytes(project)?;
     if from_bytes(&bytes)? != *project {
-        return Err(contents("the project did not survive being written: nothing was saved"));
+        return Err(contents(words!("the project did not survive being written: nothing was saved")));
     }
     with_backup(path, &bytes).map_err(|source| file_error(path, source))
 }
@@ -134,28 +169,32 @@ pub fn to_bytes(project: &Project) -> Result<Vec<u8>, ProjectFileError> {
 fn from_json(bytes: &[u8]) -> Result<Project, ProjectFileError> {
     let bytes = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
     if bytes.trim_ascii().is_empty() {
-        return Err(contents("the file is empty"));
+        return Err(contents(words!("the file is empty")));
     }
-    let any: AnyFile = serde_json::from_slice(bytes).map_err(|e| contents(format!("not a project: {e}")))?;
+    let any: AnyFile = serde_json::from_slice(bytes).map_err(no_project)?;
     if any.format != FORMAT {
-        return Err(contents(format!("this is a {:?}, not a project", any.format)));
+        return Err(contents(words!(
+            "this is a \"{format}\", not a project",
+            format = within_quotes(&any.format)
+        )));
     }
     if any.version > VERSION {
-        return Err(contents(format!(
-            "project version {}, made by a newer program: this one reads up to version {VERSION}",
-            any.version
+        return Err(contents(words!(
+            "project version {version}, made by a newer program: this one reads up to version {newest}",
+            version = any.version,
+            newest = VERSION
         )));
     }
     if any.version == 0 {
-        return Err(contents("there is no project version 0"));
+        return Err(contents(words!("there is no project version 0")));
     }
-    let file: File = serde_json::from_slice(bytes).map_err(|e| contents(format!("not a project: {e}")))?;
+    let file: File = serde_json::from_slice(bytes).map_err(no_project)?;
     Ok(file.project)
 }
 
 fn to_json(project: &Project) -> Result<Vec<u8>, ProjectFileError> {
     let file = File { format: FORMAT.to_owned(), version: VERSION, project: project.clone() };
-    let mut bytes = serde_json::to_vec_pretty(&file).map_err(contents)?;
+    let mut bytes = serde_json::to_vec_pretty(&file).map_err(library)?;
     bytes.push(b'\n');
     Ok(bytes)
 }
@@ -182,16 +221,16 @@ fn to_zip(project: &Project) -> Result<Vec<u8>, ProjectFileError> {
         .compression_method(CompressionMethod::Deflated)
         .last_modified_time(zip::DateTime::default());
     for (name, bytes) in &entries {
-        zip.start_file(*name, options).map_err(contents)?;
-        zip.write_all(bytes).map_err(contents)?;
+        zip.start_file(*name, options).map_err(library)?;
+        zip.write_all(bytes).map_err(library)?;
     }
-    Ok(zip.finish().map_err(contents)?.into_inner())
+    Ok(zip.finish().map_err(library)?.into_inner())
 }
 
 fn from_zip(bytes: &[u8]) -> Result<Project, ProjectFileError> {
-    let mut zip = ZipArchive::new(Cursor::new(bytes)).map_err(|e| contents(format!("not a project: {e}")))?;
+    let mut zip = ZipArchive::new(Cursor::new(bytes)).map_err(no_project)?;
     if zip.len() > MOST_ENTRIES {
-        return Err(ProjectFileError::TooLarge(format!("the file has {} entries", zip.len())));
+        return Err(ProjectFileError::TooLarge(words!("the file has {n} entries", n = zip.len())));
     }
     let mut left = MOST_BYTES;
     let json = entry(&mut zip, JSON_ENTRY, &mut left)?;
@@ -209,23 +248,26 @@ fn from_zip(bytes: &[u8]) -> Result<Project, ProjectFileError> {
     Ok(project)
 }
 
+fn damaged(why: &Words) -> ProjectFileError {
+    contents(words!("the project is damaged: {why}", why))
+}
+
 /// Content of an entry; never more than `left` bytes, whatever size the entry claims.
 fn entry(
     zip: &mut ZipArchive<Cursor<&[u8]>>,
     name: &str,
     left: &mut u64,
 ) -> Result<Vec<u8>, ProjectFileError> {
-    let file = zip.by_name(name).map_err(|e| contents(format!("not a project: {name}: {e}")))?;
+    let file = zip.by_name(name).map_err(|e| no_project(format!("{name}: {e}")))?;
     let mut bytes = Vec::new();
     file.take(*left + 1)
         .read_to_end(&mut bytes)
-        .map_err(|e| contents(format!("the project is damaged: {name}: {e}")))?;
+        .map_err(|e| damaged(&Words::plain(format!("{name}: {e}"))))?;
     match left.checked_sub(bytes.len() as u64) {
         Some(rest) => *left = rest,
         None => {
-            return Err(ProjectFileError::TooLarge(format!(
-                "the project unpacks to over {MOST_BYTES} bytes"
-            )));
+            let words = words!("the project unpacks to over {most} bytes", most = MOST_BYTES);
+            return Err(ProjectFileError::TooLarge(words));
         }
     }
     Ok(bytes)
@@ -238,7 +280,7 @@ fn point_bytes(points: &[DVec3]) -> Vec<u8> {
 fn points(bytes: &[u8]) -> Result<Vec<DVec3>, ProjectFileError> {
     let (points, rest) = bytes.as_chunks::<24>();
     if !rest.is_empty() {
-        return Err(contents("the project is damaged: an array of points ends in the middle of one"));
+        return Err(damaged(&words!("an array of points ends in the middle of one")));
     }
     let number = |b: &[u8]| f64::from_le_bytes(b.try_into().unwrap_or_default());
     Ok(points.iter().map(|p| DVec3::new(number(&p[..8]), number(&p[8..16]), number(&p[16..]))).collect())
@@ -250,9 +292,7 @@ fn triangles(bytes: &[u8], vertex_count: usize) -> Result<Vec<[u32; 3]>, Project
     let triangles: Vec<[u32; 3]> =
         triangles.iter().map(|t| [number(&t[..4]), number(&t[4..8]), number(&t[8..])]).collect();
     if !rest.is_empty() || triangles.iter().flatten().any(|&v| v as usize >= vertex_count) {
-        return Err(contents(
-            "the project is damaged: a triangle of the body names a vertex that is not there",
-        ));
+        return Err(damaged(&words!("a triangle of the body names a vertex that is not there")));
     }
     Ok(triangles)
 }

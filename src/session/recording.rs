@@ -4,12 +4,14 @@
 //! gesture and whenever the cloth comes to rest, but for cloth that a graphics card has moved.
 
 use std::collections::VecDeque;
+use std::fmt;
 use std::fs::File;
 use std::io::{BufWriter, Write};
 
 use serde::{Deserialize, Serialize};
 
-use crate::io::words::readable;
+use crate::geometry::words::{Words, within_quotes, words};
+use crate::io::words::{line, readable, readable_words};
 use crate::session::command::Command;
 use crate::session::project::Project;
 use crate::session::recovery::Journal;
@@ -246,21 +248,35 @@ pub enum RecordedEvent {
 }
 
 /// Why a text is not a recording.
-#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-#[error("line {line}: {words}")]
+#[derive(Clone, Debug, PartialEq, Eq)]
 pub struct RecordingError {
     /// Line number, from 1.
     pub line: usize,
     /// What is wrong.
-    pub words: String,
+    pub words: Words,
 }
+
+impl RecordingError {
+    /// The error in words.
+    pub fn words(&self) -> Words {
+        line(self.line).and(": ", self.words.clone())
+    }
+}
+
+impl fmt::Display for RecordingError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        self.words().fmt(f)
+    }
+}
+
+impl std::error::Error for RecordingError {}
 
 impl Recording {
     /// Reads JSON lines. A last line that was cut off (a crash while writing) is an error like any other.
     pub fn parse(text: &str) -> Result<Self, RecordingError> {
         let mut lines = text.lines().enumerate().filter(|(_, l)| !l.trim().is_empty());
         let Some((i, first)) = lines.next() else {
-            return Err(RecordingError { line: 1, words: "the recording is empty".to_owned() });
+            return Err(RecordingError { line: 1, words: words!("the recording is empty") });
         };
         let (project, machine) = header(first).map_err(|words| RecordingError { line: i + 1, words })?;
         let mut recording = Self { project, machine, commands: Vec::new(), told: Vec::new(), by_card: false };
@@ -270,9 +286,9 @@ impl Recording {
         Ok(recording)
     }
 
-    fn take(&mut self, line: &str) -> Result<(), String> {
+    fn take(&mut self, line: &str) -> Result<(), Words> {
         match serde_json::from_str(line).map_err(json_words)? {
-            Line::Header { .. } => return Err("a second header".to_owned()),
+            Line::Header { .. } => return Err(words!("a second header")),
             Line::Command { seq, gesture, command } => self.commands.push((seq, gesture, command)),
             Line::Card { .. } => self.by_card = true,
             Line::Applied { seq, tick } => self.told.push(RecordedEvent::Applied { seq, tick }),
@@ -301,24 +317,29 @@ struct AnyVersion {
     version: u32,
 }
 
-fn header(line: &str) -> Result<(Project, String), String> {
+fn header(line: &str) -> Result<(Project, String), Words> {
     let any: AnyHeader = serde_json::from_str(line)
-        .map_err(|e| format!("this is not the header of a recording: {}", json_words(e)))?;
+        .map_err(|e| words!("this is not the header of a recording: {why}", why = json_words(e)))?;
     if any.header.format != FORMAT {
-        return Err(readable(&format!("this is a {:?}, not a recording", any.header.format)));
+        let format = within_quotes(&any.header.format);
+        return Err(readable_words(words!("this is a \"{format}\", not a recording", format)));
     }
     if any.header.version != VERSION {
         let version = any.header.version;
-        return Err(format!("recording version {version}: this program reads version {VERSION}"));
+        return Err(words!(
+            "recording version {version}: this program reads version {own}",
+            version,
+            own = VERSION
+        ));
     }
     match serde_json::from_str(line).map_err(json_words)? {
         Line::Header { project, machine, .. } => Ok((*project, machine)),
-        _ => Err("the first line must be the header".to_owned()),
+        _ => Err(words!("the first line must be the header")),
     }
 }
 
 /// Words for a JSON error. Each line is JSON of its own, so the caller adds the line number.
 #[expect(clippy::needless_pass_by_value, reason = "for map_err")]
-fn json_words(error: serde_json::Error) -> String {
-    readable(&error.to_string().replace(" at line 1 column ", " at column "))
+fn json_words(error: serde_json::Error) -> Words {
+    Words::plain(readable(&error.to_string().replace(" at line 1 column ", " at column ")))
 }

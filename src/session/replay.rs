@@ -1,23 +1,40 @@
 //! Replays a recording on the caller's thread, as fast as it can, and compares hashes. Stops at the first difference.
 
 use std::collections::{BTreeMap, VecDeque};
+use std::fmt;
 
+use crate::geometry::words::{Words, words};
 use crate::session::command::Command;
 use crate::session::recording::{Hex, RecordedEvent, Recording, machine};
 use crate::session::session::{GestureId, Session};
 use crate::sim::{Runner, Simulation};
 
 /// The first difference between a replay and its recording.
-#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-#[error("diverged at tick {tick}, after command {seq}: {words}")]
+#[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Divergence {
     /// Ticks executed before.
     pub tick: u64,
     /// Number of the last command carried out; 0: none.
     pub seq: u64,
     /// What differs.
-    pub words: String,
+    pub words: Words,
 }
+
+impl Divergence {
+    /// The difference in words.
+    pub fn words(&self) -> Words {
+        let Self { tick, seq, words } = self;
+        words!("diverged at tick {tick}, after command {seq}: {words}", tick, seq, words)
+    }
+}
+
+impl fmt::Display for Divergence {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        self.words().fmt(f)
+    }
+}
+
+impl std::error::Error for Divergence {}
 
 /// A replay in progress.
 #[derive(Debug)]
@@ -145,12 +162,13 @@ impl Replay {
         }
         let now = self.simulation().ticks();
         if now > tick {
-            return Err(self.diverged(format!("the recording goes back to tick {tick}")));
+            return Err(self.diverged(words!("the recording goes back to tick {tick}", tick)));
         }
         if self.simulation().is_at_rest() {
-            return Err(
-                self.diverged(format!("the cloth is at rest; in the recording it moves until tick {tick}"))
-            );
+            return Err(self.diverged(words!(
+                "the cloth is at rest; in the recording it moves until tick {tick}",
+                tick
+            )));
         }
         self.simulation().tick();
         // Hashes and rejections are compared with the recording's lines, not kept.
@@ -167,10 +185,15 @@ impl Replay {
 
     fn apply(&mut self, seq: u64, gesture: u64, command: Command) -> Result<(), Divergence> {
         if seq != self.session.last_seq() + 1 {
-            return Err(self.diverged(format!("the next command is numbered {seq}")));
+            return Err(self.diverged(words!("the next command is numbered {seq}", seq)));
         }
         if gesture != self.last_gesture && gesture != self.last_gesture + 1 {
-            let words = format!("command {seq} belongs to gesture {gesture}, not {}", self.last_gesture + 1);
+            let words = words!(
+                "command {seq} belongs to gesture {gesture}, not {next}",
+                seq,
+                gesture,
+                next = self.last_gesture + 1
+            );
             return Err(self.diverged(words));
         }
         self.last_gesture = gesture;
@@ -179,7 +202,7 @@ impl Replay {
         self.simulation().take_events();
         applied.map_err(|why| {
             let name = name.split([' ', '{']).next().unwrap_or_default();
-            self.diverged(format!("command {seq} ({name}) was refused: {why}"))
+            self.diverged(words!("command {seq} ({name}) was refused: {why}", seq, name, why = why.0))
         })
     }
 
@@ -188,50 +211,59 @@ impl Replay {
         if taken == seq || self.watched {
             return Ok(());
         }
-        Err(self.diverged(format!(
-            "in the recording the simulation took command {seq} up, here {taken} was the last"
+        Err(self.diverged(words!(
+            "in the recording the simulation took command {seq} up, here {taken} was the last",
+            seq,
+            taken
         )))
     }
 
     fn compare(&mut self, seq: u64, cloth: u64, document: Option<u64>) -> Result<(), Divergence> {
         match document {
             Some(document) => {
-                self.same("last command", self.session.last_seq(), seq)?;
+                self.same(&words!("last command"), self.session.last_seq(), seq)?;
                 let gesture = GestureId(self.last_gesture);
                 self.session.end_gesture(gesture);
                 self.simulation().take_events();
                 let ours = self.session.document_hash();
-                self.same_hash("document", ours, document)?;
+                self.same_hash(&words!("document"), ours, document)?;
             }
             None => {
                 let taken = self.simulation().seq();
-                self.same("last command in the simulation", taken, seq)?;
+                self.same(&words!("last command in the simulation"), taken, seq)?;
             }
         }
         let ours = self.simulation().hash();
-        self.same_hash("cloth", ours, cloth)?;
+        self.same_hash(&words!("cloth"), ours, cloth)?;
         self.hashes_compared += 1;
         Ok(())
     }
 
-    fn same(&mut self, what: &str, ours: u64, recorded: u64) -> Result<(), Divergence> {
+    fn same(&mut self, what: &Words, ours: u64, recorded: u64) -> Result<(), Divergence> {
         if ours == recorded || self.watched {
             return Ok(());
         }
-        Err(self.diverged(format!("the {what} is {ours}, in the recording {recorded}")))
+        Err(self.diverged(words!("the {what} is {ours}, in the recording {recorded}", what, ours, recorded)))
     }
 
-    fn same_hash(&mut self, what: &str, ours: u64, recorded: u64) -> Result<(), Divergence> {
+    fn same_hash(&mut self, what: &Words, ours: u64, recorded: u64) -> Result<(), Divergence> {
         if ours == recorded || self.watched {
             return Ok(());
         }
-        let (ours, recorded) = (Hex(ours), Hex(recorded));
-        Err(self.diverged(format!("the {what}'s hash is {ours}, in the recording {recorded}")))
+        let [ours, recorded] = [ours, recorded].map(|hash| Hex(hash).to_string());
+        Err(self.diverged(words!(
+            "the {what}'s hash is {ours}, in the recording {recorded}",
+            what,
+            ours,
+            recorded
+        )))
     }
 
-    fn diverged(&mut self, mut words: String) -> Divergence {
+    fn diverged(&mut self, mut words: Words) -> Divergence {
         if let Some(kind) = &self.other_machine {
-            words += &format!(" (recorded on {kind}, this is {}: the last bits may differ)", machine());
+            let own = machine();
+            let note = words!("(recorded on {kind}, this is {own}: the last bits may differ)", kind, own);
+            words = words.and(" ", note);
         }
         Divergence { tick: self.simulation().ticks(), seq: self.session.last_seq(), words }
     }

@@ -1,11 +1,13 @@
 //! Atomic file access: files are written whole or not at all, one or several; too large ones are not read.
 
-use std::fs;
 use std::io::{Error, ErrorKind, Read, Result, Write};
 use std::path::{Path, PathBuf};
 use std::sync::{Mutex, MutexGuard, PoisonError, TryLockError};
+use std::{fmt, fs};
 
 use atomic_write_file::AtomicWriteFile;
+
+use crate::geometry::words::{Words, words};
 
 /// Most symbolic links in a chain; a longer chain is taken to be a cycle.
 const MOST_LINKS: usize = 40;
@@ -24,21 +26,44 @@ struct Known {
     numbers: Option<[u64; 2]>,
 }
 
+/// What is said of a file that the system has no error for.
+#[derive(Debug)]
+struct Told(Words);
+
+impl fmt::Display for Told {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        self.0.fmt(f)
+    }
+}
+
+impl std::error::Error for Told {}
+
+/// An error of a file that is told in `words`.
+pub fn told(kind: ErrorKind, words: Words) -> Error {
+    Error::new(kind, Told(words))
+}
+
+/// The error of a file in words; errors of the system are in its own.
+pub fn words(error: &Error) -> Words {
+    match error.get_ref().and_then(|inner| inner.downcast_ref()) {
+        Some(Told(words)) => words.clone(),
+        None => Words::plain(error.to_string()),
+    }
+}
+
 /// Content of the file at `path`, of at most `most` bytes; [`ErrorKind::FileTooLarge`] otherwise. Files without a known length,
 /// such as devices, are read no further either.
 pub fn read(path: &Path, most: u64) -> Result<Vec<u8>> {
-    let too_large = |has: String| {
-        Error::new(ErrorKind::FileTooLarge, format!("it has {has} bytes, at most {most} are read"))
-    };
+    let too_large = |words: Words| told(ErrorKind::FileTooLarge, words);
     let file = fs::File::open(path)?;
     let size = file.metadata()?.len();
     if size > most {
-        return Err(too_large(size.to_string()));
+        return Err(too_large(words!("it has {size} bytes, at most {most} are read", size, most)));
     }
     let mut bytes = Vec::with_capacity(usize::try_from(size).unwrap_or_default());
     file.take(most.saturating_add(1)).read_to_end(&mut bytes)?;
     if bytes.len() as u64 > most {
-        return Err(too_large(format!("more than {most}")));
+        return Err(too_large(words!("it has more than {most} bytes, at most {most} are read", most)));
     }
     Ok(bytes)
 }
@@ -230,7 +255,7 @@ pub fn is_protected(path: &Path) -> bool {
 /// An error if `path` is a write-protected file.
 pub fn refuse_protected(path: &Path) -> Result<()> {
     match is_protected(path) {
-        true => Err(Error::new(ErrorKind::PermissionDenied, "it is write-protected")),
+        true => Err(told(ErrorKind::PermissionDenied, words!("it is write-protected"))),
         false => Ok(()),
     }
 }
@@ -244,7 +269,7 @@ fn followed(path: &Path) -> Result<PathBuf> {
             Err(_) => return Ok(at),
         }
     }
-    Err(Error::other("its links go round in a circle"))
+    Err(told(ErrorKind::Other, words!("its links go round in a circle")))
 }
 
 #[cfg(all(test, unix))]

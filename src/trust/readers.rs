@@ -100,9 +100,11 @@ pub fn readers() -> Vec<Reader> {
             rul::read(bytes).map(drop).map_err(|e| e.to_string())
         }),
         Reader::new("motion", Form::Text, vec![motions], motion),
-        Reader::new("picture", Form::Bytes, vec![good::picture()], |bytes| picture::read(bytes).map(drop)),
+        Reader::new("picture", Form::Bytes, vec![good::picture()], |bytes| {
+            picture::read(bytes).map(drop).map_err(String::from)
+        }),
         Reader::new("environment", Form::Bytes, vec![good::environment()], |bytes| {
-            environment::read(bytes).map(drop)
+            environment::read(bytes).map(drop).map_err(String::from)
         }),
     ]
 }

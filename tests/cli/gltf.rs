@@ -3,6 +3,7 @@
 use std::f64::consts::{FRAC_PI_2, FRAC_PI_4};
 
 use base64::Engine as _;
+use toile::geometry::words::Words;
 use toile::io::gltf::{self, Model};
 use toile::session::project_file;
 
@@ -11,7 +12,7 @@ use crate::program::Place;
 use crate::repose::vertices;
 
 fn alone(bytes: &[u8]) -> Result<Model, gltf::GltfError> {
-    gltf::read(bytes, &|name| Err(format!("{name} is not there")))
+    gltf::read(bytes, &|name| Err(Words::plain(format!("{name} is not there"))))
 }
 
 fn check(model: &Model) {
@@ -41,7 +42,7 @@ fn a_skinned_cylinder_bends_exactly_in_every_kind_of_file() {
     check(&alone(&glb()).expect("a binary file"));
     let (json, data) = skinned(Some("limb.bin"));
     let beside = gltf::read(json.as_bytes(), &|name| {
-        (name == "limb.bin").then(|| data.clone()).ok_or_else(String::new)
+        (name == "limb.bin").then(|| data.clone()).ok_or_else(Words::default)
     });
     check(&beside.expect("a text with a file"));
     let inline = base64::engine::general_purpose::STANDARD.encode(&data);

@@ -6,6 +6,7 @@ use glam::{DQuat, DVec2, DVec3};
 use toile::geometry::ids::MarkId;
 use toile::geometry::mesh::TriMesh;
 use toile::geometry::shapes::cylinder;
+use toile::geometry::words::Words;
 use toile::io::{glb, gltf};
 use toile::pattern::{Pattern, Piece};
 use toile::session::{BodyChoice, Document, Project, Settings};
@@ -97,7 +98,8 @@ pub fn project() -> Project {
         body: vec![BodyMark { id: MarkId(2), points: line(&|t| DVec3::new(0.0, 0.74 + 0.2 * t, 0.12)) }],
         ..Marks::default()
     };
-    let mesh = gltf::read(&glb(), &|name| Err(format!("{name} is not there"))).expect("a file").mesh();
+    let mesh =
+        gltf::read(&glb(), &|name| Err(Words::plain(format!("{name} is not there")))).expect("a file").mesh();
     Project {
         document: Document {
             pattern: pattern.into(),

@@ -109,7 +109,7 @@ fn the_project_file_keeps_images_whole_even_those_that_cannot_be_read() {
     artwork.images.insert(ImageId(1), Arc::new(ImageFile::new("logo.png", png()[..40].to_vec())));
     let damaged = read(&kept).expect("the image alone is damaged");
     assert_eq!(damaged, kept);
-    let told: Vec<(&str, &str)> = damaged.document.artwork.unreadable().collect();
+    let told: Vec<_> = damaged.document.artwork.unreadable().collect();
     assert!(told.len() == 1 && told[0].0 == "logo.png", "{told:?}");
     // What no command would accept is refused.
     Arc::make_mut(&mut kept.document.artwork)

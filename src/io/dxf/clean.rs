@@ -6,8 +6,10 @@ use std::fmt::Write;
 
 use encoding_rs::Encoding;
 
+use crate::geometry::words::{Words, within_quotes, words};
 use crate::io::Limits;
 use crate::io::pattern_file::PatternFileError;
+use crate::io::words::line;
 
 /// The first bytes of a binary DXF file.
 const BINARY: &[u8] = b"AutoCAD Binary DXF";
@@ -25,7 +27,7 @@ pub struct Clean {
     /// The sections BLOCKS and ENTITIES as valid ASCII DXF, encoded in UTF-8.
     pub text: String,
     /// Faults that the reader could skip, with their lines.
-    pub notes: Vec<String>,
+    pub notes: Vec<Words>,
     /// `$INSUNITS`, if it is there.
     pub units: Option<i64>,
     /// Number of entities (shapes and texts) kept.
@@ -57,17 +59,17 @@ fn is_dwg(bytes: &[u8]) -> bool {
 pub fn clean(bytes: &[u8]) -> Result<Clean, PatternFileError> {
     let bytes = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
     if bytes.trim_ascii().is_empty() {
-        return Err(PatternFileError::Whole("the file is empty".to_owned()));
+        return Err(PatternFileError::Whole(words!("the file is empty")));
     }
     if bytes.starts_with(BINARY) {
-        return Err(PatternFileError::Whole(
-            "this is a binary DXF; save it as ASCII DXF (R12) in the program it comes from".to_owned(),
-        ));
+        return Err(PatternFileError::Whole(words!(
+            "this is a binary DXF; save it as ASCII DXF (R12) in the program it comes from"
+        )));
     }
     if is_dwg(bytes) {
-        return Err(PatternFileError::Whole(
-            "this is a DWG drawing; save it as DXF (R12) in the program it comes from".to_owned(),
-        ));
+        return Err(PatternFileError::Whole(words!(
+            "this is a DWG drawing; save it as DXF (R12) in the program it comes from"
+        )));
     }
     let text = decoded(bytes);
     let limits = Limits::default();
@@ -154,15 +156,19 @@ impl<'a> Records<'a> {
             Err(_) if code.is_empty() && value.trim().is_empty() => None,
             Err(_) => {
                 let shown: String = code.chars().take(20).collect();
-                let words = format!("{shown:?} is no group code; the file is no DXF, or cut out of one");
-                Some(Err(PatternFileError::bad(format!("line {}", number + 1), words)))
+                let words = words!(
+                    "\"{code}\" is no group code; the file is no DXF, or cut out of one",
+                    code = within_quotes(&shown)
+                );
+                Some(Err(PatternFileError::bad(line(number + 1), words)))
             }
         }
     }
 }
 
-fn over_line(line: usize, bytes: usize, limit: usize) -> PatternFileError {
-    PatternFileError::OverLimit(format!("line {line}: it has {bytes} bytes; {limit} are allowed"))
+fn over_line(number: usize, bytes: usize, limit: usize) -> PatternFileError {
+    let words = words!("it has {count} bytes; {most} are allowed", count = bytes, most = limit);
+    PatternFileError::OverLimit(line(number).and(": ", words))
 }
 
 impl<'a> Iterator for Records<'a> {
@@ -191,8 +197,8 @@ impl<'a> Iterator for Records<'a> {
                     break;
                 }
                 Ok(_) if record.tags.len() >= self.tag_limit => {
-                    let words = format!("line {}: it has more than {} tags", record.line, self.tag_limit);
-                    return Some(Err(PatternFileError::OverLimit(words)));
+                    let words = words!("it has more than {most} tags", most = self.tag_limit);
+                    return Some(Err(PatternFileError::OverLimit(line(record.line).and(": ", words))));
                 }
                 Ok(tag) => record.tags.push(tag),
             }
@@ -239,7 +245,7 @@ impl<'l> Cleaner<'l> {
         }
     }
 
-    fn note(&mut self, words: String) {
+    fn note(&mut self, words: Words) {
         if self.out.notes.len() < MOST_NOTES {
             self.out.notes.push(words);
         } else {
@@ -252,7 +258,7 @@ impl<'l> Cleaner<'l> {
             return Ok(());
         }
         if self.in_polyline && !["VERTEX", "SEQEND"].contains(&record.kind) {
-            self.note(format!("line {}: a polyline has no SEQEND", record.line));
+            self.note(line(record.line).and(": ", words!("a polyline has no SEQEND")));
             self.end_polyline();
         }
         match record.kind {
@@ -334,12 +340,12 @@ impl<'l> Cleaner<'l> {
             return Ok(());
         }
         if kind == "VERTEX" && !self.in_polyline {
-            self.note(format!("line {}: a VERTEX without a POLYLINE was left out", record.line));
+            self.note(line(record.line).and(": ", words!("a VERTEX without a POLYLINE was left out")));
             return Ok(());
         }
         self.out.entities += 1;
         if self.out.entities > self.limits.dxf_entities {
-            let words = format!("more than {} shapes and texts", self.limits.dxf_entities);
+            let words = words!("more than {most} shapes and texts", most = self.limits.dxf_entities);
             return Err(PatternFileError::OverLimit(words));
         }
         if self.write(record)? && kind == "POLYLINE" {
@@ -356,7 +362,8 @@ impl<'l> Cleaner<'l> {
                     continue;
                 }
                 let kind = record.kind;
-                self.note(format!("line {}: {words}; the {kind} was left out", tag.line));
+                let words = words!("{words}; the {kind} was left out", words, kind);
+                self.note(line(tag.line).and(": ", words));
                 return Ok(false);
             }
         }
@@ -384,19 +391,20 @@ impl<'l> Cleaner<'l> {
         if self.out.text.is_empty()
             || (self.section == Section::None && !self.ended && self.out.entities == 0)
         {
-            return Err(PatternFileError::Whole("there is nothing drawn in it".to_owned()));
+            return Err(PatternFileError::Whole(words!("there is nothing drawn in it")));
         }
         if !self.ended {
-            let words = format!("the file ends early; {} shapes and texts were read", self.out.entities);
+            let n = self.out.entities;
+            let words = words!("the file ends early; {n} shapes and texts were read", n);
             self.out.notes.insert(0, words);
         }
         self.end_section();
         self.out.text.push_str("0\nEOF\n");
         if self.more_notes > 0 {
-            self.out.notes.push(format!("{} more faults of this kind", self.more_notes));
+            self.out.notes.push(words!("{n} more faults of this kind", n = self.more_notes));
         }
         for (kind, count) in self.left_out.into_iter().take(MOST_NOTES) {
-            self.out.notes.push(format!("{count} × {kind} left out: not a shape of a pattern"));
+            self.out.notes.push(words!("{count} × {kind} left out: not a shape of a pattern", count, kind));
         }
         Ok(self.out)
     }
@@ -410,27 +418,27 @@ fn whole(text: &str) -> Option<i16> {
 
 /// The fault of a tag's number that can be skipped with a note, or None if the number is valid. A number that is infinite or NaN
 /// is an error and ends the reading.
-fn fault(tag: Tag<'_>) -> Result<Option<String>, PatternFileError> {
-    let shown = || tag.value.chars().take(30).collect::<String>();
+fn fault(tag: Tag<'_>) -> Result<Option<Words>, PatternFileError> {
+    let value = || within_quotes(&tag.value.chars().take(30).collect::<String>());
     match tag.code {
         10..=59 => match tag.value.parse::<f64>() {
             Ok(x) if x.is_finite() => Ok(None),
-            Ok(_) => Err(PatternFileError::bad(
-                format!("line {}", tag.line),
-                format!("{:?} is not a finite number", shown()),
-            )),
-            Err(_) => {
-                let hint = if tag.value.contains(',') { " (a decimal comma?)" } else { "" };
-                Ok(Some(format!("{:?} is no number{hint}", shown())))
+            Ok(_) => {
+                let words = words!("\"{value}\" is not a finite number", value = value());
+                Err(PatternFileError::bad(line(tag.line), words))
             }
+            Err(_) if tag.value.contains(',') => {
+                Ok(Some(words!("\"{value}\" is no number (a decimal comma?)", value = value())))
+            }
+            Err(_) => Ok(Some(words!("\"{value}\" is no number", value = value()))),
         },
         60..=79 => {
             let sound = whole(tag.value).is_some();
-            Ok((!sound).then(|| format!("{:?} is no small whole number", shown())))
+            Ok((!sound).then(|| words!("\"{value}\" is no small whole number", value = value())))
         }
         90..=99 => {
             let sound = tag.value.parse::<i32>().is_ok();
-            Ok((!sound).then(|| format!("{:?} is no whole number", shown())))
+            Ok((!sound).then(|| words!("\"{value}\" is no whole number", value = value())))
         }
         _ => Ok(None),
     }

@@ -2,6 +2,7 @@
 
 use glam::{DMat2, DVec2};
 
+use crate::geometry::words::{decimal, words};
 use crate::io::pattern_file::PatternFileError;
 use crate::pattern::{Edge, EdgeShape};
 
@@ -87,8 +88,9 @@ impl Drawn {
         {
             None => Ok(()),
             Some(p) => {
-                let words = format!("a point at {:.3} m, {:.3} m is beyond {largest} m", p.x, p.y);
-                Err(PatternFileError::bad(format!("block {}", self.name), words))
+                let (x, y) = (decimal(p.x, 3), decimal(p.y, 3));
+                let words = words!("a point at {x} m, {y} m is beyond {most} m", x, y, most = largest);
+                Err(PatternFileError::bad(words!("block {name}", name = self.name), words))
             }
         }
     }

@@ -6,6 +6,7 @@ use glam::DVec2;
 
 use super::drawn::{Drawn, DrawnLine, LineShape};
 use super::layer;
+use crate::geometry::words::{Words, words};
 use crate::io::Limits;
 use crate::io::pattern_file::PatternFileError;
 use crate::io::rul::RuleTable;
@@ -64,7 +65,8 @@ pub fn told_apart(loose: Drawn) -> Result<Vec<Drawn>, PatternFileError> {
     }
     let limits = Limits::default();
     if outer.len() > limits.contours {
-        let words = format!("{} closed lines; {} are allowed", outer.len(), limits.contours);
+        let (count, most) = (outer.len(), limits.contours);
+        let words = words!("{count} closed lines; {most} are allowed", count, most);
         return Err(PatternFileError::OverLimit(words));
     }
     outer.sort_by(|a, b| b.0.signed_area().abs().total_cmp(&a.0.signed_area().abs()));
@@ -101,7 +103,7 @@ pub fn told_apart(loose: Drawn) -> Result<Vec<Drawn>, PatternFileError> {
 }
 
 /// The piece of each block, in metres. A block without a closed line gives a note instead.
-pub fn traced(all: Vec<Drawn>, rules: Option<&RuleTable>, notes: &mut Vec<String>) -> Vec<Traced> {
+pub fn traced(all: Vec<Drawn>, rules: Option<&RuleTable>, notes: &mut Vec<Words>) -> Vec<Traced> {
     let mut names: BTreeMap<String, usize> = BTreeMap::new();
     let mut traced = Vec::new();
     for drawn in all {
@@ -121,7 +123,7 @@ pub fn traced(all: Vec<Drawn>, rules: Option<&RuleTable>, notes: &mut Vec<String
                 }
                 traced.push(piece);
             }
-            None => notes.push(format!("{name}: it has no closed line and was left out")),
+            None => notes.push(words!("{name}: it has no closed line and was left out", name)),
         }
     }
     traced
@@ -150,7 +152,7 @@ struct Loop {
     contour: Contour,
 }
 
-fn piece(drawn: &Drawn, name: String, notes: &mut Vec<String>) -> Option<Traced> {
+fn piece(drawn: &Drawn, name: String, notes: &mut Vec<Words>) -> Option<Traced> {
     let knots = Knots::of(drawn);
     let mut loops: BTreeMap<Option<u32>, Vec<Loop>> = BTreeMap::new();
     let mut open: Vec<(Option<u32>, Vec<Edge>, DVec2)> = Vec::new();
@@ -158,7 +160,7 @@ fn piece(drawn: &Drawn, name: String, notes: &mut Vec<String>) -> Option<Traced>
         if line.is_closed {
             let edges = knots.closed(&line.shape);
             if edges.len() < 2 {
-                notes.push(format!("{name}: a closed line of fewer than three points was left out"));
+                notes.push(words!("{name}: a closed line of fewer than three points was left out", name));
                 continue;
             }
             let contour = Contour::coarse(flattened_loop(&edges, CHORDS));
@@ -173,7 +175,7 @@ fn piece(drawn: &Drawn, name: String, notes: &mut Vec<String>) -> Option<Traced>
     let boundary = first_of(&mut loops, &[layer::BOUNDARY, layer::SEAM, layer::INTERNAL])
         .or_else(|| loops.values_mut().find(|l| !l.is_empty()).map(|l| l.remove(0)))?;
     if boundary.contour.signed_area() == 0.0 {
-        notes.push(format!("{name}: its outline surrounds nothing"));
+        notes.push(words!("{name}: its outline surrounds nothing", name));
     }
     let seam = [layer::SEAM, layer::INTERNAL].into_iter().find_map(|l| {
         let of_layer = loops.get_mut(&Some(l))?;
@@ -237,10 +239,10 @@ pub fn line_layer(name: &str) -> Option<u32> {
 
 impl Traced {
     /// Gives the points at texts such as "# 7" the rule of that number. Returns a note on those that found no point or rule.
-    fn take_rules(&mut self, drawn: &Drawn, table: &RuleTable) -> Option<String> {
+    fn take_rules(&mut self, drawn: &Drawn, table: &RuleTable) -> Option<Words> {
         let number = |text: &str| text.trim().strip_prefix('#')?.trim().parse::<u32>().ok();
         let labels = drawn.texts.iter().filter_map(|(_, text, at)| Some((number(text)?, *at)));
-        let (mut lost, mut unknown) = (0, 0);
+        let (mut lost, mut unknown) = (0_usize, 0_usize);
         for (number, at) in labels {
             let Some(rule) = table.rules.get(&number) else {
                 unknown += 1;
@@ -259,16 +261,20 @@ impl Traced {
                 None => lost += 1,
             }
         }
-        let words = |count: usize, words: &str| (count > 0).then(|| format!("{count} {words}"));
-        let told = [
-            words(lost, "grade rules are at no end of an edge; these points follow those beside them"),
-            words(unknown, "grade rules are not in the table"),
-        ];
-        let told: Vec<String> = told.into_iter().flatten().collect();
-        (!told.is_empty()).then(|| format!("{}: {}", self.name, told.join("; ")))
+        let mut told = Vec::new();
+        if lost > 0 {
+            told.push(words!(
+                "{n} grade rules are at no end of an edge; these points follow those beside them",
+                n = lost
+            ));
+        }
+        if unknown > 0 {
+            told.push(words!("{n} grade rules are not in the table", n = unknown));
+        }
+        (!told.is_empty()).then(|| Words::plain(&self.name).and(": ", Words::joined(told, "; ")))
     }
 
-    fn take_open(&mut self, open: Vec<(Option<u32>, Vec<Edge>, DVec2)>, notes: &mut Vec<String>) {
+    fn take_open(&mut self, open: Vec<(Option<u32>, Vec<Edge>, DVec2)>, notes: &mut Vec<Words>) {
         for (of, edges, end) in open {
             match of {
                 Some(layer::GRAIN) if self.grainline.is_none() => {
@@ -284,9 +290,9 @@ impl Traced {
                 }
                 _ => {
                     if of == Some(layer::BOUNDARY) || of == Some(layer::CUT_OUT) {
-                        notes.push(format!(
-                            "{}: a line to cut along is not closed; taken as an internal line",
-                            self.name
+                        notes.push(words!(
+                            "{name}: a line to cut along is not closed; taken as an internal line",
+                            name = self.name
                         ));
                     }
                     self.lines.push(InternalLine {

@@ -9,6 +9,7 @@ use glam::{DMat2, DVec2};
 use super::clean::{self, Clean};
 use super::drawn::{Drawn, DrawnLine, LineShape, Placing};
 use super::{layer, pieces, units};
+use crate::geometry::words::{Words, words};
 use crate::io::Limits;
 use crate::io::pattern_file::{PatternFileError, ReadPattern};
 use crate::io::rul::RuleTable;
@@ -35,7 +36,7 @@ pub fn read_with_rules(
 ) -> Result<ReadPattern, PatternFileError> {
     let mut clean = clean::clean(bytes)?;
     let drawing = Drawing::load_with_encoding(&mut clean.text.as_bytes(), encoding_rs::UTF_8)
-        .map_err(|e| PatternFileError::Whole(format!("no sound DXF: {e}")))?;
+        .map_err(|e| PatternFileError::Whole(words!("no sound DXF: {why}", why = e.to_string())))?;
     let mut notes = std::mem::take(&mut clean.notes);
     let blocks: Vec<&Block> = drawing.blocks().filter(|b| !b.name.starts_with(['*', '$'])).collect();
     check_nesting(&blocks)?;
@@ -76,7 +77,8 @@ pub fn read_with_rules(
         return Err(nothing(&clean, &notes));
     }
     if traced.len() > limits.pieces {
-        let words = format!("{} pieces; {} are allowed", traced.len(), limits.pieces);
+        let (count, most) = (traced.len(), limits.pieces);
+        let words = words!("{count} pieces; {most} are allowed", count, most);
         return Err(PatternFileError::OverLimit(words));
     }
     let (mut pattern, more) = trace::pattern(traced);
@@ -85,12 +87,12 @@ pub fn read_with_rules(
     Ok(ReadPattern { pattern, notes })
 }
 
-fn nothing(clean: &Clean, notes: &[String]) -> PatternFileError {
+fn nothing(clean: &Clean, notes: &[Words]) -> PatternFileError {
     let words = match clean.entities {
-        0 => "there is nothing drawn in it".to_owned(),
-        n => format!("there is no closed line among the {n} shapes and texts in it"),
+        0 => words!("there is nothing drawn in it"),
+        n => words!("there is no closed line among the {n} shapes and texts in it", n),
     };
-    PatternFileError::Whole(std::iter::once(&words).chain(notes).cloned().collect::<Vec<_>>().join("; "))
+    PatternFileError::Whole(Words::joined(std::iter::once(&words).chain(notes).cloned(), "; "))
 }
 
 /// Refuses blocks nested too deep, which includes blocks that contain each other.
@@ -117,10 +119,10 @@ fn check_nesting(blocks: &[&Block]) -> Result<(), PatternFileError> {
         }
     }
     let names: Vec<&str> = level.into_iter().take(3).collect();
-    Err(PatternFileError::OverLimit(format!(
-        "block {}: blocks inside blocks without end, or more than {} deep",
-        names.join(", "),
-        limits.block_depth
+    Err(PatternFileError::OverLimit(words!(
+        "block {names}: blocks inside blocks without end, or more than {most} deep",
+        names = names.join(", "),
+        most = limits.block_depth
     )))
 }
 
@@ -129,7 +131,7 @@ fn check_nesting(blocks: &[&Block]) -> Result<(), PatternFileError> {
 fn inserts<'a>(
     blocks: &[&Block],
     drawing: &'a Drawing,
-    notes: &mut Vec<String>,
+    notes: &mut Vec<Words>,
 ) -> Result<Vec<Option<&'a Insert>>, PatternFileError> {
     let key = |name: &str| name.to_uppercase();
     let mut by_name: BTreeMap<String, Vec<&Insert>> = BTreeMap::new();
@@ -143,7 +145,8 @@ fn inserts<'a>(
         }
     }
     if copies > limits.pieces as u64 {
-        let words = format!("blocks are inserted {copies} times; {} pieces are allowed", limits.pieces);
+        let most = limits.pieces;
+        let words = words!("blocks are inserted {copies} times; {most} pieces are allowed", copies, most);
         return Err(PatternFileError::OverLimit(words));
     }
     let mut same: BTreeMap<String, usize> = BTreeMap::new();
@@ -158,7 +161,8 @@ fn inserts<'a>(
         let order = met.entry(name.clone()).or_default();
         let insert = if of_name.len() == same[&name] { of_name.get(*order).copied() } else { None };
         if same[&name] == 1 && of_name.len() > 1 {
-            notes.push(format!("{}: placed {} times, read once", block.name, of_name.len()));
+            let (name, n) = (&block.name, of_name.len());
+            notes.push(words!("{name}: placed {n} times, read once", name, n));
         }
         found.push(insert.or_else(|| (same[&name] == 1).then(|| of_name.first().copied()).flatten()));
         *order += 1;
@@ -166,10 +170,11 @@ fn inserts<'a>(
     Ok(found)
 }
 
-fn placed(insert: &Insert, base: &Point, notes: &mut Vec<String>) -> Placing {
+fn placed(insert: &Insert, base: &Point, notes: &mut Vec<Words>) -> Placing {
     let (x, mut y) = (insert.x_scale_factor, insert.y_scale_factor);
     if (x.abs() - y.abs()).abs() > 1e-9 * x.abs() || x == 0.0 {
-        notes.push(format!("{}: stretched when inserted; read as it is in its block", insert.name));
+        let name = &insert.name;
+        notes.push(words!("{name}: stretched when inserted; read as it is in its block", name));
         return Placing { matrix: DMat2::IDENTITY, offset: DVec2::ZERO };
     }
     if y == 0.0 {
@@ -183,7 +188,7 @@ fn placed(insert: &Insert, base: &Point, notes: &mut Vec<String>) -> Placing {
 fn drawn<'a>(
     name: &str,
     entities: impl Iterator<Item = &'a Entity>,
-    notes: &mut Vec<String>,
+    notes: &mut Vec<Words>,
 ) -> Result<Drawn, PatternFileError> {
     let mut drawn = Drawn { name: readable(name), ..Drawn::default() };
     let mut nested = 0;
@@ -236,12 +241,13 @@ fn drawn<'a>(
         }
     }
     if nested > 0 && !drawn.lines.is_empty() {
-        notes.push(format!("{name}: {nested} blocks inside it were left out"));
+        notes.push(words!("{name}: {n} blocks inside it were left out", name, n = nested));
     }
     let limits = Limits::default();
     let segments: usize = drawn.lines.iter().map(|l| l.shape.points().len()).sum();
     if segments > limits.path_segments {
-        let words = format!("block {name}: {segments} points; {} are allowed", limits.path_segments);
+        let (count, most) = (segments, limits.path_segments);
+        let words = words!("block {name}: {count} points; {most} are allowed", name, count, most);
         return Err(PatternFileError::OverLimit(words));
     }
     Ok(drawn)

@@ -3,6 +3,7 @@
 use glam::DVec2;
 
 use super::clean::Clean;
+use crate::geometry::words::{Words, decimal, words};
 use crate::io::pattern_file::PatternFileError;
 use crate::io::scale::{DrawingUnit, ScaleQuestion};
 
@@ -17,21 +18,22 @@ pub fn unit(
     clean: &Clean,
     texts: &[String],
     largest: DVec2,
-) -> Result<(DrawingUnit, Option<String>), PatternFileError> {
+) -> Result<(DrawingUnit, Option<Words>), PatternFileError> {
     let side = largest.max_element();
     let possible = |unit: DrawingUnit| POSSIBLE.contains(&(side * unit.metres()));
     let (said, by) = match (said_in_text(texts), said_in_header(clean)) {
-        (Some(unit), _) => (unit, "the text UNITS"),
-        (None, Some(unit)) => (unit, "the header"),
+        (Some(unit), _) => (unit, words!("the text UNITS")),
+        (None, Some(unit)) => (unit, words!("the header")),
         (None, None) => return guessed(largest),
     };
     if possible(said) {
         return Ok((said, None));
     }
-    let why = format!(
-        "{by} says {}, but then the largest piece would be {:.1} cm long",
-        said.long(),
-        side * said.metres() * 100.0
+    let why = words!(
+        "{by} says {unit}, but then the largest piece would be {length} cm long",
+        by,
+        unit = Words::listed(said.long()),
+        length = decimal(side * said.metres() * 100.0, 1)
     );
     let others = candidates().filter(|&unit| unit != said && possible(unit));
     Err(question(why, largest, others.chain([said]).collect()))
@@ -41,7 +43,7 @@ fn candidates() -> impl Iterator<Item = DrawingUnit> {
     [DrawingUnit::Millimetre, DrawingUnit::Centimetre, DrawingUnit::Inch, DrawingUnit::Metre].into_iter()
 }
 
-fn question(why: String, largest: DVec2, candidates: Vec<DrawingUnit>) -> PatternFileError {
+fn question(why: Words, largest: DVec2, candidates: Vec<DrawingUnit>) -> PatternFileError {
     PatternFileError::Scale(ScaleQuestion { why, largest, candidates })
 }
 
@@ -72,12 +74,15 @@ fn said_in_header(clean: &Clean) -> Option<DrawingUnit> {
 
 /// The unit when the file states none: the only one that gives the largest piece a usual size; a question if there are several or
 /// none.
-fn guessed(largest: DVec2) -> Result<(DrawingUnit, Option<String>), PatternFileError> {
+fn guessed(largest: DVec2) -> Result<(DrawingUnit, Option<Words>), PatternFileError> {
     let fitting: Vec<DrawingUnit> =
         candidates().filter(|unit| LIKELY.contains(&(largest.max_element() * unit.metres()))).collect();
     match fitting[..] {
-        [unit] => Ok((unit, Some(format!("taken to be in {}, by the size of its pieces", unit.long())))),
-        [] => Err(question("it does not say its unit".to_owned(), largest, candidates().collect())),
-        _ => Err(question("it does not say its unit".to_owned(), largest, fitting)),
+        [unit] => {
+            let unit_name = Words::listed(unit.long());
+            Ok((unit, Some(words!("taken to be in {unit}, by the size of its pieces", unit = unit_name))))
+        }
+        [] => Err(question(words!("it does not say its unit"), largest, candidates().collect())),
+        _ => Err(question(words!("it does not say its unit"), largest, fitting)),
     }
 }

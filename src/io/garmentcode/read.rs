@@ -3,10 +3,12 @@
 //! The two dialects differ in `curvature`: the older one has only quadratic Béziers, written as a plain pair.
 
 use std::collections::{BTreeMap, BTreeSet};
+use std::fmt;
 
 use glam::{DQuat, DVec2, DVec3, EulerRot};
 
 use crate::geometry::ids::PieceId;
+use crate::geometry::words::{Words, decimal, within_quotes, words};
 use crate::io::Limits;
 use crate::io::json::{self, At, JsonError};
 use crate::io::sheet;
@@ -20,19 +22,41 @@ pub(super) const LARGEST_CURVATURE: f64 = 100.0;
 const LARGEST_ANGLE: f64 = 720.0;
 
 /// Why a file cannot be read as a pattern.
-#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[derive(Clone, Debug, PartialEq, Eq)]
 pub enum GarmentCodeError {
     /// Not JSON, or not the JSON of a pattern.
-    #[error("{0}")]
-    Json(#[from] JsonError),
+    Json(JsonError),
     /// More than [`Limits`] allows.
-    #[error("{place}: {words}")]
     OverLimit {
         /// JSON pointer of the value that exceeds the limit.
         place: String,
         /// Which limit.
-        words: String,
+        words: Words,
     },
+}
+
+impl GarmentCodeError {
+    /// The error in words.
+    pub fn words(&self) -> Words {
+        match self {
+            Self::Json(error) => error.words(),
+            Self::OverLimit { place, words } => Words::plain(place).and(": ", words.clone()),
+        }
+    }
+}
+
+impl fmt::Display for GarmentCodeError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        self.words().fmt(f)
+    }
+}
+
+impl std::error::Error for GarmentCodeError {}
+
+impl From<JsonError> for GarmentCodeError {
+    fn from(error: JsonError) -> Self {
+        Self::Json(error)
+    }
 }
 
 /// Reads a pattern: pieces in the order of the file, outlines in the direction of the file.
@@ -41,7 +65,8 @@ pub enum GarmentCodeError {
 pub fn read(bytes: &[u8]) -> Result<Pattern, GarmentCodeError> {
     let limits = Limits::default();
     if bytes.len() > limits.file_bytes {
-        let words = format!("the file has {} bytes; {} are allowed", bytes.len(), limits.file_bytes);
+        let (count, most) = (bytes.len(), limits.file_bytes);
+        let words = words!("the file has {count} bytes; {most} are allowed", count, most);
         return Err(GarmentCodeError::OverLimit { place: "/".to_owned(), words });
     }
     let root = json::parse(bytes)?;
@@ -53,26 +78,25 @@ pub fn read(bytes: &[u8]) -> Result<Pattern, GarmentCodeError> {
     let panels = body.field("panels")?;
     let entries = panels.entries()?;
     if entries.len() > limits.pieces {
-        return Err(over(&panels, format!("{} panels; {} are allowed", entries.len(), limits.pieces)));
+        let (count, most) = (entries.len(), limits.pieces);
+        return Err(over(&panels, words!("{count} panels; {most} are allowed", count, most)));
     }
     for (name, panel) in entries {
         if name.len() > limits.name_bytes {
-            return Err(over(
-                &panels,
-                format!("a name of {} bytes; {} are allowed", name.len(), limits.name_bytes),
-            ));
+            let (count, most) = (name.len(), limits.name_bytes);
+            return Err(over(&panels, words!("a name of {count} bytes; {most} are allowed", count, most)));
         }
         ids.insert(name, pattern.add_piece(convention.piece(name, &panel)?));
     }
     if ids.is_empty() {
-        return Err(panels.error("the pattern has no panels").into());
+        return Err(panels.error(words!("the pattern has no panels")).into());
     }
     read_stitches(&body, &ids, &mut pattern)?;
     sheet::lay_out(&mut pattern);
     Ok(pattern)
 }
 
-fn over(at: &At<'_>, words: String) -> GarmentCodeError {
+fn over(at: &At<'_>, words: Words) -> GarmentCodeError {
     GarmentCodeError::OverLimit { place: at.pointer.clone(), words }
 }
 
@@ -87,18 +111,23 @@ impl Convention {
     fn read(root: &At<'_>, limits: &Limits) -> Result<Self, JsonError> {
         let properties = root.field("properties")?;
         let Some(units) = properties.optional("units_in_meter")? else {
-            return Err(properties.error("\"units_in_meter\" is missing: 100 stands for centimetres"));
+            let words = words!("\"units_in_meter\" is missing: 100 stands for centimetres");
+            return Err(properties.error(words));
         };
         let units_in_metre = units.number()?;
         if !(1e-3..=1e6).contains(&units_in_metre) {
-            return Err(units.error(format!("{units_in_metre} units in a metre cannot be")));
+            return Err(units.error(words!("{n} units in a metre cannot be", n = units_in_metre)));
         }
         let absolute_controls = match properties.optional("curvature_coords")? {
             None => false,
             Some(at) => match at.text()? {
                 "relative" => false,
                 "absolute" => true,
-                other => return Err(at.error(format!("{other:?} is neither \"relative\" nor \"absolute\""))),
+                other => {
+                    let name = within_quotes(other);
+                    let words = words!("\"{name}\" is neither \"relative\" nor \"absolute\"", name);
+                    return Err(at.error(words));
+                }
             },
         };
         let largest_coordinate = limits.pattern_coordinate;
@@ -108,7 +137,8 @@ impl Convention {
     fn length(&self, at: &At<'_>) -> Result<f64, JsonError> {
         let metres = at.number()? * self.metres_per_unit;
         if metres.abs() > self.largest_coordinate {
-            return Err(at.error(format!("{metres} m is beyond {} m", self.largest_coordinate)));
+            let most = self.largest_coordinate;
+            return Err(at.error(words!("{metres} m is beyond {most} m", metres, most)));
         }
         Ok(metres)
     }
@@ -134,14 +164,17 @@ impl Convention {
         let list = panel.field("edges")?;
         let edges = list.items()?;
         if edges.len() < 3 {
-            return Err(list.error(format!("a panel needs at least 3 edges, this one has {}", edges.len())));
+            let words = words!("a panel needs at least 3 edges, this one has {n}", n = edges.len());
+            return Err(list.error(words));
         }
         let ends = edges.iter().map(|e| endpoints(e, vertices.len())).collect::<Result<Vec<_>, _>>()?;
         for (i, edge) in edges.iter().enumerate() {
             let (end, next) = (ends[i][1], ends[(i + 1) % edges.len()][0]);
             if end != next {
-                return Err(edge.error(format!(
-                    "the edge ends at vertex {end}, but the next one starts at vertex {next}: the outline is not closed"
+                return Err(edge.error(words!(
+                    "the edge ends at vertex {end}, but the next one starts at vertex {next}: the outline is not closed",
+                    end,
+                    next
                 )));
             }
         }
@@ -150,7 +183,7 @@ impl Convention {
 
     fn edge(&self, edge: &At<'_>, [start, end]: [DVec2; 2]) -> Result<Edge, JsonError> {
         if start.distance(end) < SHORTEST_EDGE {
-            return Err(edge.error("the edge has no length: both ends lie in one place"));
+            return Err(edge.error(words!("the edge has no length: both ends lie in one place")));
         }
         let shape = match edge.optional("curvature")? {
             None => EdgeShape::Line,
@@ -177,7 +210,11 @@ impl Convention {
                 })
             }
             "circle" => self.arc(&params, start.distance(end)),
-            other => Err(kind.error(format!("{other:?} is none of \"quadratic\", \"cubic\", \"circle\""))),
+            other => {
+                let name = within_quotes(other);
+                let words = words!("\"{name}\" is none of \"quadratic\", \"cubic\", \"circle\"", name);
+                Err(kind.error(words))
+            }
         }
     }
 
@@ -189,12 +226,13 @@ impl Convention {
         }
         let [u, v] = at.numbers()?;
         if u.abs().max(v.abs()) > LARGEST_CURVATURE {
-            return Err(at.error("a relative control point this far from its edge cannot be"));
+            return Err(at.error(words!("a relative control point this far from its edge cannot be")));
         }
         let along = end - start;
         let control = start + along * u + along.perp() * v;
         if control.abs().max_element() > self.largest_coordinate {
-            return Err(at.error(format!("the control point is beyond {} m", self.largest_coordinate)));
+            let most = self.largest_coordinate;
+            return Err(at.error(words!("the control point is beyond {most} m", most)));
         }
         Ok(control)
     }
@@ -203,8 +241,10 @@ impl Convention {
         let [radius, large, right] = params.array()?;
         let metres = self.length(&radius)?;
         if metres < chord / 2.0 * (1.0 - 1e-4) {
-            return Err(radius.error(format!(
-                "an arc of radius {metres:.6} m cannot span its ends, which are {chord:.6} m apart"
+            return Err(radius.error(words!(
+                "an arc of radius {metres} m cannot span its ends, which are {chord} m apart",
+                metres = decimal(metres, 6),
+                chord = decimal(chord, 6)
             )));
         }
         // The radius of a half circle may be rounded to slightly less than half the chord.
@@ -222,7 +262,7 @@ impl Convention {
             Some(at) => {
                 let angles: [f64; 3] = at.numbers()?;
                 if angles.iter().any(|a| a.abs() > LARGEST_ANGLE) {
-                    return Err(at.error("rotations are in degrees, no more than two turns"));
+                    return Err(at.error(words!("rotations are in degrees, no more than two turns")));
                 }
                 let [a, b, c] = angles.map(f64::to_radians);
                 // R = Rz · Ry · Rx: the rotation about x is applied first.
@@ -259,12 +299,15 @@ fn read_stitches(
         let (a, b, same_direction) = match items.as_slice() {
             [a, b] => (a, b, false),
             [a, b, how] => (a, b, right_wrong(how)?),
-            _ => return Err(stitch.error(format!("a stitch joins 2 edges, this one lists {}", items.len()))),
+            _ => {
+                let words = words!("a stitch joins 2 edges, this one lists {n}", n = items.len());
+                return Err(stitch.error(words));
+            }
         };
         let sides = [edge_ref(a, ids, pattern)?, edge_ref(b, ids, pattern)?];
         for (side, at) in sides.iter().zip([a, b]) {
             if !sewn.insert(*side) {
-                return Err(at.error("this edge is sewn twice"));
+                return Err(at.error(words!("this edge is sewn twice")));
             }
         }
         pattern.add_seam(Seam::of_edges(sides, same_direction));
@@ -277,7 +320,10 @@ fn read_stitches(
 fn right_wrong(how: &At<'_>) -> Result<bool, JsonError> {
     match how.text()? {
         "right_wrong" => Ok(true),
-        other => Err(how.error(format!("{other:?} is no way to stitch; only \"right_wrong\" is known"))),
+        other => {
+            let name = within_quotes(other);
+            Err(how.error(words!("\"{name}\" is no way to stitch; only \"right_wrong\" is known", name)))
+        }
     }
 }
 
@@ -285,7 +331,7 @@ fn edge_ref(side: &At<'_>, ids: &BTreeMap<&str, PieceId>, pattern: &Pattern) -> 
     let panel = side.field("panel")?;
     let name = panel.text()?;
     let Some(&piece) = ids.get(name) else {
-        return Err(panel.error(format!("there is no panel {name:?}")));
+        return Err(panel.error(words!("there is no panel \"{name}\"", name = within_quotes(name))));
     };
     let edge = side.field("edge")?.index(pattern.pieces[&piece].outline.len())?;
     Ok(EdgeRef { piece, edge })

@@ -4,7 +4,8 @@ use glam::{DQuat, DVec3, DVec4};
 use gltf::animation::{Interpolation, Property};
 
 use super::numbers::Numbers;
-use super::{GltfError, Pose, fault, turn};
+use super::{GltfError, Pose, channel_place, fault, turn};
+use crate::geometry::words::words;
 
 /// Largest number of keyframes of one channel.
 const MOST_KEYS: usize = 1_000_000;
@@ -33,9 +34,8 @@ struct Track {
 impl Clip {
     pub fn new(animation: &gltf::Animation<'_>, numbers: &Numbers<'_>) -> Result<Self, GltfError> {
         let tracks = animation.channels().enumerate().map(|(i, channel)| {
-            let words = |words: &str| format!("animation {}, channel {i}: {words}", animation.index());
             Track::new(&channel, numbers).map_err(|error| match error {
-                GltfError::File(why) => fault(words(&why)),
+                GltfError::File(why) => fault(channel_place(animation.index(), i).and(": ", why)),
                 over => over,
             })
         });
@@ -65,10 +65,11 @@ impl Track {
         let sampler = channel.sampler();
         let times: Vec<f64> = numbers.floats::<1>(&sampler.input())?.into_iter().map(|[t]| t).collect();
         if times.is_empty() || times.len() > MOST_KEYS {
-            return Err(fault(format!("it has {} keys, 1 to {MOST_KEYS} are read", times.len())));
+            let (n, most) = (times.len(), MOST_KEYS);
+            return Err(fault(words!("it has {n} keys, 1 to {most} are read", n, most)));
         }
         if times.windows(2).any(|pair| pair[0] > pair[1]) || times[0] < 0.0 {
-            return Err(fault("the times of its keys do not rise from 0"));
+            return Err(fault(words!("the times of its keys do not rise from 0")));
         }
         let (property, output) = (channel.target().property(), sampler.output());
         let values: Vec<f64> = match property {
@@ -85,7 +86,7 @@ impl Track {
             Property::MorphTargetWeights => width,
         };
         if width == 0 || width != expected || values.len() != keys * width {
-            return Err(fault("it has other numbers of times and of values"));
+            return Err(fault(words!("it has other numbers of times and of values")));
         }
         Ok(Self { node: channel.target().node().index(), property, interpolation, times, values, width })
     }

@@ -6,14 +6,17 @@
 mod animate;
 mod numbers;
 
+use std::fmt;
+
 use base64::Engine as _;
 use glam::{DAffine3, DMat4, DQuat, DVec3};
 use gltf::mesh::{Mode, Semantic};
 use gltf::scene::Transform;
 
 use crate::geometry::mesh::TriMesh;
+use crate::geometry::words::{Words, words};
 use crate::io::Limits;
-use crate::io::words::readable;
+use crate::io::words::readable_words;
 use animate::Clip;
 use numbers::Numbers;
 
@@ -23,18 +26,34 @@ const MOST_JOINT_SETS: u32 = 4;
 const INLINE: &str = "data:";
 
 /// Why a file cannot be read as a body.
-#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[derive(Clone, Debug, PartialEq, Eq)]
 pub enum GltfError {
     /// What is wrong, and where: "mesh 2, primitive 0: ...".
-    #[error("{0}")]
-    File(String),
+    File(Words),
     /// The file exceeds a limit; the text names it.
-    #[error("over the limit: {0}")]
-    OverLimit(String),
+    OverLimit(Words),
 }
 
-fn fault(words: impl Into<String>) -> GltfError {
-    GltfError::File(words.into())
+impl GltfError {
+    /// The error in words.
+    pub fn words(&self) -> Words {
+        match self {
+            Self::File(words) => words.clone(),
+            Self::OverLimit(what) => words!("over the limit: {what}", what),
+        }
+    }
+}
+
+impl fmt::Display for GltfError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        self.words().fmt(f)
+    }
+}
+
+impl std::error::Error for GltfError {}
+
+fn fault(words: Words) -> GltfError {
+    GltfError::File(words)
 }
 
 /// A scene of meshes with its nodes, skins and animations, evaluated by [`Model::positions`].
@@ -110,18 +129,23 @@ fn tail_has(bytes: &[u8], word: &[u8]) -> bool {
 }
 
 /// Reads a scene. `load` gives the buffer file that the text names, or the error in words.
-pub fn read(bytes: &[u8], load: &dyn Fn(&str) -> Result<Vec<u8>, String>) -> Result<Model, GltfError> {
+pub fn read(bytes: &[u8], load: &dyn Fn(&str) -> Result<Vec<u8>, Words>) -> Result<Model, GltfError> {
     let most = Limits::default().file_bytes;
     if bytes.len() > most {
-        return Err(GltfError::OverLimit(format!("the file has more than {most} bytes")));
+        return Err(GltfError::OverLimit(words!("the file has more than {most} bytes", most)));
     }
-    let unread = |error: gltf::Error| fault(readable(&format!("this is no glTF that can be read: {error}")));
+    let unread = |error: gltf::Error| {
+        let why = error.to_string();
+        fault(readable_words(words!("this is no glTF that can be read: {why}", why)))
+    };
     told_length(bytes)?;
     let file = gltf::Gltf::from_slice_without_validation(bytes).map_err(unread)?;
     names_what_is_there(file.document.as_json())?;
     let document = gltf::Document::from_json(file.document.into_json()).map_err(unread)?;
     let buffers = document.buffers().map(|buffer| match buffer.source() {
-        gltf::buffer::Source::Bin => file.blob.clone().ok_or_else(|| fault("its binary part is missing")),
+        gltf::buffer::Source::Bin => {
+            file.blob.clone().ok_or_else(|| fault(words!("its binary part is missing")))
+        }
         gltf::buffer::Source::Uri(uri) if uri.starts_with(INLINE) => inline(uri),
         gltf::buffer::Source::Uri(uri) => load(uri).map_err(fault),
     });
@@ -134,8 +158,10 @@ fn told_length(bytes: &[u8]) -> Result<(), GltfError> {
     const HEADER: usize = 12;
     let told = bytes.strip_prefix(b"glTF").and_then(|rest| rest.get(4..8));
     match told.map(|b| u32::from_le_bytes([b[0], b[1], b[2], b[3]]) as usize) {
-        Some(length) if length < HEADER => Err(fault(format!(
-            "its header says that it has {length} bytes, but the header alone has {HEADER}"
+        Some(length) if length < HEADER => Err(fault(words!(
+            "its header says that it has {length} bytes, but the header alone has {least}",
+            length,
+            least = HEADER
         ))),
         _ => Ok(()),
     }
@@ -143,37 +169,45 @@ fn told_length(bytes: &[u8]) -> Result<(), GltfError> {
 
 /// Checks references that the crate takes for granted: the accessors of positions, and what animations move.
 fn names_what_is_there(root: &gltf::json::Root) -> Result<(), GltfError> {
-    let missing = |words: String| Err(fault(format!("this is no glTF that can be read: {words}")));
+    let missing = |place: Words, words: Words| {
+        Err(fault(words!("this is no glTF that can be read: {why}", why = place.and(": ", words))))
+    };
     let positions = gltf::json::validation::Checked::Valid(Semantic::Positions);
     for (m, mesh) in root.meshes.iter().enumerate() {
         for (p, primitive) in mesh.primitives.iter().enumerate() {
             let accessor = primitive.attributes.get(&positions);
             if accessor.is_some_and(|accessor| accessor.value() >= root.accessors.len()) {
-                return missing(format!("mesh {m}, primitive {p}: its places are not there"));
+                return missing(primitive_place(m, p), words!("its places are not there"));
             }
         }
     }
     for (a, animation) in root.animations.iter().enumerate() {
         for (c, channel) in animation.channels.iter().enumerate() {
             if channel.target.node.value() >= root.nodes.len() {
-                return missing(format!("animation {a}, channel {c}: the node that it moves is not there"));
+                return missing(channel_place(a, c), words!("the node that it moves is not there"));
             }
             if !matches!(channel.target.path, gltf::json::validation::Checked::Valid(_)) {
-                return missing(format!(
-                    "animation {a}, channel {c}: what it moves of the node is not known"
-                ));
+                return missing(channel_place(a, c), words!("what it moves of the node is not known"));
             }
         }
     }
     Ok(())
 }
 
+fn primitive_place(mesh: usize, primitive: usize) -> Words {
+    words!("mesh {mesh}, primitive {primitive}", mesh, primitive)
+}
+
+fn channel_place(animation: usize, channel: usize) -> Words {
+    words!("animation {animation}, channel {channel}", animation, channel)
+}
+
 /// Decodes a data URI, such as "data:application/octet-stream;base64,AAAA".
 fn inline(uri: &str) -> Result<Vec<u8>, GltfError> {
     let text = uri.split_once(";base64,").map(|(_, text)| text);
-    let text = text.ok_or_else(|| fault("a buffer in the text is not written as base64"))?;
+    let text = text.ok_or_else(|| fault(words!("a buffer in the text is not written as base64")))?;
     let bytes = base64::engine::general_purpose::STANDARD.decode(text);
-    bytes.map_err(|e| fault(format!("a buffer in the text is no base64: {e}")))
+    bytes.map_err(|e| fault(words!("a buffer in the text is no base64: {why}", why = e.to_string())))
 }
 
 impl Model {
@@ -184,7 +218,7 @@ impl Model {
         for node in document.nodes().filter(|node| shown[node.index()]) {
             let Some(mesh) = node.mesh() else { continue };
             for primitive in mesh.primitives() {
-                let place = format!("mesh {}, primitive {}", mesh.index(), primitive.index());
+                let place = primitive_place(mesh.index(), primitive.index());
                 let Some(part) = part(&node, &primitive, numbers, &place)? else { continue };
                 let first = u32::try_from(vertices).map_err(|_| over(&place))?;
                 vertices += part.positions.len();
@@ -196,14 +230,14 @@ impl Model {
             }
         }
         if triangles.is_empty() {
-            return Err(fault("there are no triangles in its scene"));
+            return Err(fault(words!("there are no triangles in its scene")));
         }
         let skins = document.skins().map(|skin| Skin::new(&skin, numbers)).collect::<Result<Vec<_>, _>>()?;
         for part in &parts {
             let Some((skin, weights)) = &part.skin else { continue };
             let count = skins[*skin].joints.len();
             if weights.iter().flatten().any(|(joint, _)| *joint >= count) {
-                return Err(fault(format!("a vertex hangs on a joint that skin {skin} has not")));
+                return Err(fault(words!("a vertex hangs on a joint that skin {skin} has not", skin)));
             }
         }
         let clips = document.animations().map(|clip| Clip::new(&clip, numbers)).collect::<Result<_, _>>()?;
@@ -243,9 +277,10 @@ impl Model {
     }
 }
 
-fn over(place: &str) -> GltfError {
+fn over(place: &Words) -> GltfError {
     let Limits { vertices, faces, .. } = Limits::default();
-    GltfError::OverLimit(format!("{place}: more than {vertices} vertices or {faces} triangles"))
+    let words = words!("more than {vertices} vertices or {faces} triangles", vertices, faces);
+    GltfError::OverLimit(place.clone().and(": ", words))
 }
 
 /// All nodes, and their indices ordered with each parent before its children.
@@ -254,7 +289,7 @@ fn nodes(document: &gltf::Document) -> Result<(Vec<Node>, Vec<usize>), GltfError
     for node in document.nodes() {
         for child in node.children() {
             if nodes[child.index()].parent.replace(node.index()).is_some() {
-                return Err(fault(format!("node {} hangs on two nodes", child.index())));
+                return Err(fault(words!("node {n} hangs on two nodes", n = child.index())));
             }
         }
     }
@@ -268,7 +303,7 @@ fn nodes(document: &gltf::Document) -> Result<(Vec<Node>, Vec<usize>), GltfError
     }
     match order.len() == nodes.len() {
         true => Ok((nodes, order)),
-        false => Err(fault("some of its nodes hang on each other in a ring")),
+        false => Err(fault(words!("some of its nodes hang on each other in a ring"))),
     }
 }
 
@@ -317,10 +352,11 @@ fn part(
     node: &gltf::Node<'_>,
     primitive: &gltf::Primitive<'_>,
     numbers: &Numbers<'_>,
-    place: &str,
+    place: &Words,
 ) -> Result<Option<Part>, GltfError> {
+    let placed = |words: Words| fault(place.clone().and(": ", words));
     let at = |error: GltfError| match error {
-        GltfError::File(words) => fault(format!("{place}: {words}")),
+        GltfError::File(words) => placed(words),
         over => over,
     };
     if !matches!(primitive.mode(), Mode::Triangles | Mode::TriangleStrip | Mode::TriangleFan) {
@@ -334,14 +370,14 @@ fn part(
         None => (0..count as u32).collect::<Vec<u32>>(),
     };
     if corners.iter().any(|&v| v as usize >= count) {
-        return Err(fault(format!("{place}: a triangle names a vertex that is not there")));
+        return Err(placed(words!("a triangle names a vertex that is not there")));
     }
     let mut targets = Vec::new();
     for target in primitive.morph_targets() {
         let moved =
             target.positions().map_or(Ok(vec![DVec3::ZERO; count]), |a| numbers.vectors(&a).map_err(at))?;
         if moved.len() != count {
-            return Err(fault(format!("{place}: a morph target has other vertices")));
+            return Err(placed(words!("a morph target has other vertices")));
         }
         targets.push(moved);
     }
@@ -365,7 +401,7 @@ fn hanging(
         let Some((joints, weights)) = given else { break };
         let (joints, weights) = (numbers.integers::<4>(&joints)?, numbers.floats::<4>(&weights)?);
         if joints.len() != count || weights.len() != count {
-            return Err(fault("its vertices have other numbers of joints"));
+            return Err(fault(words!("its vertices have other numbers of joints")));
         }
         for (own, (joints, weights)) in hanging.iter_mut().zip(joints.iter().zip(&weights)) {
             let some = joints.iter().zip(weights).filter(|(_, weight)| **weight > 0.0);
@@ -400,7 +436,7 @@ impl Skin {
             None => vec![DMat4::IDENTITY; joints.len()],
         };
         if binds.len() < joints.len() {
-            return Err(fault(format!("skin {} has fewer matrices than joints", skin.index())));
+            return Err(fault(words!("skin {n} has fewer matrices than joints", n = skin.index())));
         }
         Ok(Self { joints: joints.into_iter().zip(binds).collect() })
     }

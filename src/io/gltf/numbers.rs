@@ -6,6 +6,7 @@ use gltf::accessor::{DataType, sparse::Sparse};
 use gltf::buffer::View;
 
 use super::{GltfError, fault};
+use crate::geometry::words::words;
 use crate::io::Limits;
 
 /// Largest number of values of one accessor.
@@ -21,13 +22,13 @@ impl Numbers<'_> {
     pub fn vectors(&self, accessor: &Accessor<'_>) -> Result<Vec<DVec3>, GltfError> {
         let most = Limits::default().vertices;
         if accessor.count() > most {
-            return Err(GltfError::OverLimit(format!("more than {most} vertices")));
+            return Err(GltfError::OverLimit(words!("more than {most} vertices", most)));
         }
         let vectors: Vec<DVec3> = self.floats::<3>(accessor)?.into_iter().map(DVec3::from_array).collect();
         let largest = Limits::default().coordinate;
         match vectors.iter().all(|v| v.abs().max_element() <= largest) {
             true => Ok(vectors),
-            false => Err(fault(format!("a coordinate is more than {largest}"))),
+            false => Err(fault(words!("a coordinate is more than {most}", most = largest))),
         }
     }
 
@@ -45,14 +46,14 @@ impl Numbers<'_> {
         })?;
         match numbers.iter().flatten().all(|x| x.is_finite()) {
             true => Ok(numbers),
-            false => Err(fault(format!("accessor {} holds what is no number", accessor.index()))),
+            false => Err(fault(words!("accessor {n} holds what is no number", n = accessor.index()))),
         }
     }
 
     /// Unsigned integers in groups of `N`.
     pub fn integers<const N: usize>(&self, accessor: &Accessor<'_>) -> Result<Vec<[u32; N]>, GltfError> {
         if !matches!(accessor.data_type(), DataType::U8 | DataType::U16 | DataType::U32) {
-            return Err(fault(format!("accessor {} does not hold whole numbers", accessor.index())));
+            return Err(fault(words!("accessor {n} does not hold whole numbers", n = accessor.index())));
         }
         self.elements::<N, u32>(accessor, |_, bytes| match *bytes {
             [a] => u32::from(a),
@@ -67,14 +68,23 @@ impl Numbers<'_> {
         accessor: &Accessor<'_>,
         number: impl Fn(DataType, &[u8]) -> T,
     ) -> Result<Vec<[T; N]>, GltfError> {
-        let place = format!("accessor {}", accessor.index());
+        let n = accessor.index();
         let dimensions = accessor.dimensions().multiplicity();
         if dimensions != N {
-            return Err(fault(format!("{place} holds {dimensions} numbers at a time, not {N}")));
+            return Err(fault(words!(
+                "accessor {n} holds {dimensions} numbers at a time, not {expected}",
+                n,
+                dimensions,
+                expected = N
+            )));
         }
         let count = accessor.count();
         if count.saturating_mul(N) > MOST {
-            return Err(GltfError::OverLimit(format!("{place} holds more than {MOST} numbers")));
+            return Err(GltfError::OverLimit(words!(
+                "accessor {n} holds more than {most} numbers",
+                n,
+                most = MOST
+            )));
         }
         let kind = accessor.data_type();
         let size = kind.size();
@@ -84,7 +94,7 @@ impl Numbers<'_> {
             each.for_each(|(slot, bytes)| *slot = number(kind, bytes));
             all
         };
-        let outside = || fault(format!("{place} reaches beyond its buffer"));
+        let outside = || fault(words!("accessor {n} reaches beyond its buffer", n));
         let mut elements = match accessor.view() {
             Some(view) => {
                 let rows = self.rows(view, accessor.offset(), size * N, count).ok_or_else(outside)?;
@@ -97,7 +107,13 @@ impl Numbers<'_> {
             let mut before = None;
             for (at, value) in places.zip(values) {
                 let slot = elements.get_mut(at).filter(|_| before < Some(at));
-                let words = || format!("{place}: the places of its sparse values do not rise below {count}");
+                let words = || {
+                    words!(
+                        "accessor {n}: the places of its sparse values do not rise below {count}",
+                        n,
+                        count
+                    )
+                };
                 *slot.ok_or_else(|| fault(words()))? = element(value);
                 before = Some(at);
             }

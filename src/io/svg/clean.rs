@@ -8,9 +8,10 @@ use std::fmt::Write;
 
 use usvg::roxmltree::{Document, Node, ParsingOptions};
 
+use crate::geometry::words::{Words, within_quotes, words};
 use crate::io::Limits;
 use crate::io::pattern_file::PatternFileError;
-use crate::io::words::readable;
+use crate::io::words::{line, readable_words};
 
 const KEPT: [&str; 14] = [
     "svg", "g", "a", "switch", "symbol", "defs", "use", "path", "rect", "circle", "ellipse", "line",
@@ -57,7 +58,7 @@ pub struct Clean {
     /// Names and attributes of the shapes, by their ids in `text`.
     pub shapes: BTreeMap<String, Shape>,
     /// Faults that the reader could skip.
-    pub notes: Vec<String>,
+    pub notes: Vec<Words>,
     /// Size and view box of the root element as they are written.
     pub root: Root,
 }
@@ -82,13 +83,13 @@ const FARTHEST: f64 = 1e15;
 
 /// Checks and reduces a file.
 pub fn clean(bytes: &[u8]) -> Result<Clean, PatternFileError> {
-    let whole = |words: &str| PatternFileError::Whole(words.to_owned());
     if bytes.starts_with(b"\x1f\x8b") {
-        return Err(whole("this is a compressed SVG (.svgz); unpack it first"));
+        return Err(PatternFileError::Whole(words!("this is a compressed SVG (.svgz); unpack it first")));
     }
     let bytes = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
-    let text = std::str::from_utf8(bytes)
-        .map_err(|e| whole(&format!("byte {}: the file is not UTF-8 text", e.valid_up_to())))?;
+    let text = std::str::from_utf8(bytes).map_err(|e| {
+        PatternFileError::Whole(words!("byte {n}: the file is not UTF-8 text", n = e.valid_up_to()))
+    })?;
     let limits = Limits::default();
     check_depth(text, &limits)?;
     let options = ParsingOptions {
@@ -96,12 +97,13 @@ pub fn clean(bytes: &[u8]) -> Result<Clean, PatternFileError> {
         nodes_limit: u32::try_from(limits.svg_nodes * 4).unwrap_or(u32::MAX),
         ..ParsingOptions::default()
     };
-    let document = Document::parse_with_options(text, options)
-        .map_err(|e| PatternFileError::Whole(readable(&format!("no sound XML: {e}"))))?;
+    let document = Document::parse_with_options(text, options).map_err(|e| {
+        PatternFileError::Whole(readable_words(words!("no sound XML: {why}", why = e.to_string())))
+    })?;
     let root = document.root_element();
     if root.tag_name().name() != "svg" {
-        let words = format!("its root is <{}>, not <svg>", root.tag_name().name());
-        return Err(PatternFileError::bad("line 1", words));
+        let words = words!("its root is <{name}>, not <svg>", name = root.tag_name().name());
+        return Err(PatternFileError::bad(line(1), words));
     }
     check_paths(root)?;
     let names = numbers(root);
@@ -126,7 +128,7 @@ fn check_depth(text: &str, limits: &Limits) -> Result<(), PatternFileError> {
         } else if tag.starts_with("<!ENTITY") {
             let length = tag_length(tag);
             if tag[1..length].contains('<') {
-                return Err(PatternFileError::Whole("entities that hold elements are not read".to_owned()));
+                return Err(PatternFileError::Whole(words!("entities that hold elements are not read")));
             }
             length
         } else if tag.starts_with("<!") {
@@ -144,11 +146,11 @@ fn check_depth(text: &str, limits: &Limits) -> Result<(), PatternFileError> {
             length
         };
         if depth > limits.svg_depth {
-            let words = format!("elements are nested more than {} deep", limits.svg_depth);
+            let words = words!("elements are nested more than {most} deep", most = limits.svg_depth);
             return Err(PatternFileError::OverLimit(words));
         }
         if count > limits.svg_nodes {
-            let words = format!("more than {} elements", limits.svg_nodes);
+            let words = words!("more than {most} elements", most = limits.svg_nodes);
             return Err(PatternFileError::OverLimit(words));
         }
         rest = &tag[length..];
@@ -209,8 +211,8 @@ fn check_uses<'a>(
         if open.insert(id) {
             for child in &below {
                 if open.contains(&number(child)) && !done.contains_key(&number(child)) {
-                    let words = "a <use> refers to what it is in; the drawing would be without end";
-                    return Err(PatternFileError::bad(place(*child), words));
+                    let words = words!("a <use> refers to what it is in; the drawing would be without end");
+                    return Err(PatternFileError::bad(Words::plain(place(*child)), words));
                 }
             }
             stack.extend(below.into_iter().filter(|n| !done.contains_key(&number(n))));
@@ -227,11 +229,11 @@ fn check_uses<'a>(
             depth = depth.max(deep);
         }
         if count > limits.svg_nodes as u64 || depth > limits.svg_depth {
-            let words = format!(
-                "{}: with all references it has more than {} elements, or more than {} inside each other",
-                place(node),
-                limits.svg_nodes,
-                limits.svg_depth
+            let words = words!(
+                "{place}: with all references it has more than {most} elements, or more than {depth} inside each other",
+                place = place(node),
+                most = limits.svg_nodes,
+                depth = limits.svg_depth
             );
             return Err(PatternFileError::OverLimit(words));
         }
@@ -245,12 +247,18 @@ fn check_paths(root: Node<'_, '_>) -> Result<(), PatternFileError> {
     for node in root.descendants() {
         let Some(data) = node.attribute("d") else { continue };
         if let Some(number) = numbers_of(data).find(|number| number.abs() > FARTHEST) {
-            let name = own_name(node).or_else(|| node.attribute("id").map(short));
-            let words = format!("a coordinate of its path is out of range: {number:e}");
-            return Err(PatternFileError::bad(name.unwrap_or_else(|| "a path".to_owned()), words));
+            let words =
+                words!("a coordinate of its path is out of range: {number}", number = format!("{number:e}"));
+            return Err(PatternFileError::bad(called(node), words));
         }
     }
     Ok(())
+}
+
+/// What a path is called in a message.
+fn called(node: Node<'_, '_>) -> Words {
+    let name = own_name(node).or_else(|| node.attribute("id").map(short));
+    name.map_or_else(|| words!("a path"), Words::plain)
 }
 
 /// The numbers in the data of a path, also where no separator stands between them: "1-2.5.5e3" are three.
@@ -306,8 +314,9 @@ fn root_of(root: Node<'_, '_>, text: &str) -> Result<Root, PatternFileError> {
                     Some([x, y, w, h])
                 }
                 _ => {
-                    let words = format!("the viewBox {:?} is no box", short(words));
-                    return Err(PatternFileError::bad("<svg>", words));
+                    let words =
+                        words!("the viewBox \"{given}\" is no box", given = within_quotes(&short(words)));
+                    return Err(PatternFileError::bad(Words::plain("<svg>"), words));
                 }
             }
         }
@@ -388,9 +397,12 @@ impl Clean {
         if let Err(error) = kurbo::BezPath::from_svg(data)
             && self.notes.len() < MOST_NOTES
         {
-            let name = own_name(node).or_else(|| node.attribute("id").map(short));
-            let name = name.unwrap_or_else(|| "a path".to_owned());
-            self.notes.push(format!("{name}: its data has a fault ({error}); it was read up to there"));
+            let (name, error) = (called(node), error.to_string());
+            self.notes.push(words!(
+                "{name}: its data has a fault ({error}); it was read up to there",
+                name,
+                error
+            ));
         }
     }
 }

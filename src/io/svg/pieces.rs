@@ -6,6 +6,7 @@ use glam::DVec2;
 
 use super::line::Line;
 use super::{EDGES, KIND, NAME, PIECE, SMOOTH};
+use crate::geometry::words::{Words, words};
 use crate::io::Limits;
 use crate::io::pattern_file::PatternFileError;
 use crate::io::trace::Traced;
@@ -34,7 +35,7 @@ pub fn traced(
     lines: Vec<Line>,
     is_ours: bool,
     frame: Option<DVec2>,
-    notes: &mut Vec<String>,
+    notes: &mut Vec<Words>,
 ) -> Result<Vec<Traced>, PatternFileError> {
     let (ours, others): (Vec<Line>, Vec<Line>) =
         lines.into_iter().partition(|l| is_ours && l.shape.data.contains_key(PIECE));
@@ -95,16 +96,16 @@ struct Outer {
 fn guessed(
     lines: Vec<Line>,
     frame: Option<DVec2>,
-    notes: &mut Vec<String>,
+    notes: &mut Vec<Words>,
 ) -> Result<Vec<Traced>, PatternFileError> {
     let (closed, open): (Vec<Line>, Vec<Line>) = lines.into_iter().partition(|l| l.is_closed);
     let limits = Limits::default();
     if closed.len().max(open.len() / 4) > limits.contours {
-        let words = format!(
-            "{} closed and {} open lines; {} closed ones are allowed",
-            closed.len(),
-            open.len(),
-            limits.contours
+        let words = words!(
+            "{closed} closed and {open} open lines; {most} closed ones are allowed",
+            closed = closed.len(),
+            open = open.len(),
+            most = limits.contours
         );
         return Err(PatternFileError::OverLimit(words));
     }
@@ -125,11 +126,11 @@ fn guessed(
         closed.retain(|(_, contour)| !is_frame(contour));
     }
     if closed.len() < before {
-        notes.push("the frame of the page was left out".to_owned());
+        notes.push(words!("the frame of the page was left out"));
     }
     closed.sort_by(|a, b| b.1.signed_area().abs().total_cmp(&a.1.signed_area().abs()));
     let mut outer: Vec<Outer> = Vec::new();
-    let mut signs = 0;
+    let mut signs = 0_usize;
     for (line, contour) in closed {
         if let Some(around) = outer.iter_mut().find(|o| o.contour.surrounds(&contour)) {
             around.inside.push((line, contour));
@@ -147,7 +148,7 @@ fn guessed(
         }
     }
     if signs > 0 {
-        notes.push(format!("{signs} small or open lines outside of all pieces were left out"));
+        notes.push(words!("{n} small or open lines outside of all pieces were left out", n = signs));
     }
     // Pieces in the order of the file.
     outer.sort_by_key(|o| o.line.path);

@@ -6,11 +6,12 @@ use usvg::tiny_skia_path::{PathSegment, Point, Transform};
 use super::clean::{self, Clean, Root, Shape};
 use super::line::Line;
 use super::pieces;
+use crate::geometry::words::{Words, within_quotes, words};
 use crate::io::Limits;
 use crate::io::pattern_file::{PatternFileError, ReadPattern};
 use crate::io::scale::{DrawingUnit, ScaleQuestion};
 use crate::io::trace;
-use crate::io::words::readable;
+use crate::io::words::readable_words;
 use crate::pattern::{Edge, EdgeShape};
 
 /// Usual size of the larger side of a garment's largest piece, metres. Units that give such a size are offered as candidates.
@@ -24,8 +25,9 @@ const SAME_SCALE: f64 = 0.01;
 /// What cannot be read and why; a value over one of the [`Limits`]; or a question when the unit is not known.
 pub fn read(bytes: &[u8], unit: Option<DrawingUnit>) -> Result<ReadPattern, PatternFileError> {
     let Clean { text, shapes, mut notes, root } = clean::clean(bytes)?;
-    let tree = usvg::Tree::from_str(&text, &usvg::Options::default())
-        .map_err(|e| PatternFileError::Whole(readable(&format!("no sound SVG: {e}"))))?;
+    let tree = usvg::Tree::from_str(&text, &usvg::Options::default()).map_err(|e| {
+        PatternFileError::Whole(readable_words(words!("no sound SVG: {why}", why = e.to_string())))
+    })?;
     let mut lines = Vec::new();
     let mut paths = 0;
     let mut groups = vec![tree.root().children().iter()];
@@ -58,8 +60,8 @@ pub fn read(bytes: &[u8], unit: Option<DrawingUnit>) -> Result<ReadPattern, Patt
             EdgeShape::Line | EdgeShape::Arc { .. } => false,
         };
         if line.edges.iter().any(|e| beyond(e.start) || strays(e)) || beyond(line.end) {
-            let name = line.shape.name.clone().unwrap_or_else(|| "a path".to_owned());
-            return Err(PatternFileError::bad(name, format!("it reaches beyond {limit} m")));
+            let name = line.shape.name.clone().map_or_else(|| words!("a path"), Words::plain);
+            return Err(PatternFileError::bad(name, words!("it reaches beyond {most} m", most = limit)));
         }
         line.tidy();
     }
@@ -67,12 +69,13 @@ pub fn read(bytes: &[u8], unit: Option<DrawingUnit>) -> Result<ReadPattern, Patt
     let frame = root.view_box.map(|[.., w, h]| DVec2::new(w, h) * metres);
     let traced = pieces::traced(lines, root.is_ours, frame, &mut notes)?;
     if traced.is_empty() {
-        let why = std::iter::once("there is no closed line in it".to_owned()).chain(notes);
-        return Err(PatternFileError::Whole(why.collect::<Vec<_>>().join("; ")));
+        let why = std::iter::once(words!("there is no closed line in it")).chain(notes);
+        return Err(PatternFileError::Whole(Words::joined(why, "; ")));
     }
     let limits = Limits::default();
     if traced.len() > limits.pieces {
-        let words = format!("{} pieces; {} are allowed", traced.len(), limits.pieces);
+        let (count, most) = (traced.len(), limits.pieces);
+        let words = words!("{count} pieces; {most} are allowed", count, most);
         return Err(PatternFileError::OverLimit(words));
     }
     let (pattern, more) = trace::pattern(traced);
@@ -129,7 +132,7 @@ fn lines_of(
     lines.extend(line);
     lines.retain(|line| !line.edges.is_empty());
     if lines.len() > limits.path_segments || path.data().len() > limits.path_segments {
-        let words = format!("more than {} lines and curves", limits.path_segments);
+        let words = words!("more than {most} lines and curves", most = limits.path_segments);
         return Err(PatternFileError::OverLimit(words));
     }
     Ok(())
@@ -159,7 +162,7 @@ fn largest(lines: &[Line]) -> DVec2 {
 
 /// Metres per user unit by the root element's width, height and view box; a question where these do not tell it.
 fn metres_per_unit(root: &Root, largest: DVec2) -> Result<f64, PatternFileError> {
-    let ask = |why: &str| {
+    let ask = |why: Words| {
         let mut candidates = vec![DrawingUnit::Millimetre, DrawingUnit::Pixel];
         if root.is_old_inkscape {
             candidates.insert(0, DrawingUnit::OldPixel);
@@ -176,20 +179,25 @@ fn metres_per_unit(root: &Root, largest: DVec2) -> Result<f64, PatternFileError>
         if candidates.iter().any(likely) {
             candidates.retain(likely);
         }
-        Err(PatternFileError::Scale(ScaleQuestion { why: why.to_owned(), largest, candidates }))
+        Err(PatternFileError::Scale(ScaleQuestion { why, largest, candidates }))
     };
     let [width, height] = [&root.width, &root.height].map(|text| text.as_deref().map(length));
-    for (name, said, text) in [("width", width, &root.width), ("height", height, &root.height)] {
+    for (is_width, said, text) in [(true, width, &root.width), (false, height, &root.height)] {
         if let (Some(Length::Bad), Some(text)) = (said, text) {
             let shown: String = text.chars().take(30).collect();
-            return Err(PatternFileError::bad("<svg>", format!("the {name} {shown:?} is no size")));
+            let given = within_quotes(&shown);
+            let words = match is_width {
+                true => words!("the width \"{given}\" is no size", given),
+                false => words!("the height \"{given}\" is no size", given),
+            };
+            return Err(PatternFileError::bad(Words::plain("<svg>"), words));
         }
     }
     match (width, height, root.view_box) {
         (Some(Length::Metres(w)), Some(Length::Metres(h)), Some([_, _, box_w, box_h])) => {
             let (across, up) = (w / box_w, h / box_h);
             if (across / up - 1.0).abs() > SAME_SCALE {
-                return ask("its width and height give different scales");
+                return ask(words!("its width and height give different scales"));
             }
             Ok(across)
         }
@@ -197,12 +205,12 @@ fn metres_per_unit(root: &Root, largest: DVec2) -> Result<f64, PatternFileError>
         (None, Some(Length::Metres(h)), Some([.., box_h])) => Ok(h / box_h),
         (Some(Length::Metres(_)), _, None) | (_, Some(Length::Metres(_)), None) => {
             if root.is_old_inkscape {
-                return ask("it has no viewBox, and old Inkscape had other pixels");
+                return ask(words!("it has no viewBox, and old Inkscape had other pixels"));
             }
             Ok(DrawingUnit::Pixel.metres())
         }
-        (None, None, _) => ask("it does not say its size"),
-        _ => ask("its size is in pixels or percent"),
+        (None, None, _) => ask(words!("it does not say its size")),
+        _ => ask(words!("its size is in pixels or percent")),
     }
 }
 

@@ -11,6 +11,7 @@ use std::sync::Arc;
 use glam::DVec2;
 use kurbo::{ParamCurve, ParamCurveArclen, ParamCurveNearest};
 
+use crate::geometry::words::{Words, words};
 use crate::io::sheet;
 use crate::pattern::piece::flattened_loop;
 use crate::pattern::{Edge, GradeRule, InternalLine, Notch, Pattern, Piece, PlanePose, curve};
@@ -104,14 +105,14 @@ pub fn on_table(piece: &Piece) -> Traced {
 
 /// A pattern of these pieces, and notes about what was left out. Pieces keep their positions unless two overlap; then all are
 /// laid out anew.
-pub fn pattern(traced: Vec<Traced>) -> (Pattern, Vec<String>) {
+pub fn pattern(traced: Vec<Traced>) -> (Pattern, Vec<Words>) {
     let mut pattern = Pattern::default();
     let mut notes = Vec::new();
     for piece in traced {
         let name = piece.name.clone();
         let (piece, lost) = piece_of(piece);
         if lost > 0 {
-            notes.push(format!("{name}: {lost} notches are on no edge; they were left out"));
+            notes.push(words!("{name}: {n} notches are on no edge; they were left out", name, n = lost));
         }
         pattern.add_piece(piece);
     }

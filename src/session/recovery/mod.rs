@@ -12,9 +12,11 @@ use std::path::{Path, PathBuf};
 
 use serde::{Deserialize, Serialize};
 
+use crate::geometry::words::words;
 use crate::session::command::Command;
 use crate::session::project::Project;
 use crate::session::project_file::{self, ProjectFileError};
+use crate::session::whole_file;
 pub use journal::Journal;
 
 const LOCK: &str = "lock";
@@ -57,7 +59,9 @@ impl Keeper {
                     let lock = File::create(folder.join(LOCK))?;
                     lock.try_lock().map_err(|e| match e {
                         TryLockError::Error(e) => e,
-                        TryLockError::WouldBlock => io::Error::other("the folder is in use"),
+                        TryLockError::WouldBlock => {
+                            whole_file::told(io::ErrorKind::Other, words!("the folder is in use"))
+                        }
                     })?;
                     return Ok(Self { folder, _lock: lock, number: 0 });
                 }
@@ -65,7 +69,8 @@ impl Keeper {
                 Err(e) => return Err(e),
             }
         }
-        Err(io::Error::other("too many sessions were left in this folder"))
+        let words = words!("too many sessions were left in this folder");
+        Err(whole_file::told(io::ErrorKind::Other, words))
     }
 
     /// Begins a copy: the journal takes the commands from here on, and the copy can be written on any thread. Until it is

@@ -3,7 +3,7 @@
 use std::path::Path;
 use std::sync::Arc;
 
-use crate::geometry::words::Words;
+use crate::geometry::words::{Words, words};
 use crate::io::scale::DrawingUnit;
 use crate::pattern::edit::PatternEdit;
 use crate::place::Moved;
@@ -93,7 +93,7 @@ impl App {
                 self.apply(command);
                 self.pattern_pane.fit = true;
                 if !notes.is_empty() {
-                    self.messages.tell(notes.join("; "));
+                    self.messages.tell(said(&Words::joined(notes, "; ")));
                 }
             }
             PatternImport::Question(question) => {
@@ -108,13 +108,13 @@ impl App {
 
     /// A command that replaces the pattern, changed so that its placement fits the present body. What was moved is added to
     /// `notes`.
-    fn brought(&mut self, command: Command, notes: &mut Vec<String>) -> Command {
+    fn brought(&mut self, command: Command, notes: &mut Vec<Words>) -> Command {
         let Command::ReplacePattern { name, mut pattern, marks } = command else { return command };
         let moved = self.session.brought(&pattern);
         if !moved.placements.is_empty() {
             moved.carry_out(Arc::make_mut(&mut pattern));
-            let how = said(&Words::joined(moved.words, ", "));
-            notes.push(say!("Its pieces were placed for another body: {how}", how));
+            let how = Words::joined(moved.words, ", ");
+            notes.push(words!("Its pieces were placed for another body: {how}", how));
         }
         Command::ReplacePattern { name, pattern, marks }
     }
@@ -177,7 +177,7 @@ impl App {
         let (command, notes) = files::take_body(raw)?;
         self.apply(command);
         if !notes.is_empty() {
-            self.messages.tell(notes.join("; "));
+            self.messages.tell(said(&Words::joined(notes, "; ")));
         }
         Ok(())
     }

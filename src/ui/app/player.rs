@@ -18,7 +18,7 @@ use crate::sim::ClothPlace;
 use crate::sim::thread::DEFAULT_RATE_HZ;
 use crate::ui::actions::Action;
 use crate::ui::actions::asks::{Ask, Asks};
-use crate::ui::language::{say, tr};
+use crate::ui::language::{said, say, tr};
 use crate::ui::look::theme::Palette;
 use crate::ui::pattern_pane::view::TableView;
 
@@ -71,8 +71,9 @@ pub struct Player {
 impl Player {
     /// A player at the beginning of `demo`. The error is a message.
     pub fn new(demo: Demo) -> Result<Self, String> {
-        let recording = Recording::parse(demo.recording())
-            .map_err(|e| say!("The demo {name} cannot be read: {why}", name = quoted(demo), why = e))?;
+        let recording = Recording::parse(demo.recording()).map_err(|e| {
+            say!("The demo {name} cannot be read: {why}", name = quoted(demo), why = said(&e.words()))
+        })?;
         Ok(Self {
             demo,
             replay: Box::new(Replay::to_watch(recording)),
@@ -131,7 +132,10 @@ impl Player {
     fn step(&mut self) -> Result<(), String> {
         match self.replay.step() {
             Ok(goes_on) => self.ended = !goes_on,
-            Err(why) => return Err(say!("The demo {name} stopped: {why}", name = quoted(self.demo), why)),
+            Err(why) => {
+                let (name, why) = (quoted(self.demo), said(&why.words()));
+                return Err(say!("The demo {name} stopped: {why}", name, why));
+            }
         }
         Ok(())
     }

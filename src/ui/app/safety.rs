@@ -4,11 +4,12 @@ use std::path::{Path, PathBuf};
 use std::thread::JoinHandle;
 use std::time::{Duration, SystemTime};
 
-use crate::session::Session;
+use crate::geometry::words::{Words, words};
 use crate::session::recovery::{About, Keeper, Left, left};
+use crate::session::{Session, whole_file};
 use crate::ui::app::App;
 use crate::ui::files;
-use crate::ui::language::{counted, say, tr};
+use crate::ui::language::{counted, said, say, tr};
 use crate::ui::shell::dialogs::Dialog;
 
 /// Additional delay of a copy while the cloth is moving, seconds.
@@ -32,7 +33,7 @@ pub fn usual_root() -> Option<PathBuf> {
 pub struct Safety {
     keeper: Option<Keeper>,
     /// The thread that writes a copy, so that the window need not wait for the disk.
-    writing: Option<JoinHandle<Result<(), String>>>,
+    writing: Option<JoinHandle<Result<(), Words>>>,
     /// Time of the newest copy, in the window's seconds.
     copied: f64,
     /// Whether the work has been saved or replaced since the newest copy, so that a new one is needed.
@@ -52,7 +53,11 @@ impl Safety {
                 found,
                 None,
             ),
-            Err(why) => (Self::default(), found, Some(format!("{}: {why}", root.display()))),
+            Err(why) => (
+                Self::default(),
+                found,
+                Some(format!("{}: {}", root.display(), said(&whole_file::words(&why)))),
+            ),
         }
     }
 
@@ -88,7 +93,7 @@ impl Safety {
         let about = About { name, path: path.map(Path::to_owned), unsaved: session.is_modified() };
         let begun = keeper.copy(&about).map_err(|why| why.to_string()).and_then(|(journal, copying)| {
             let project = session.project();
-            let writing = move || copying.write(&project).map_err(|why| why.to_string());
+            let writing = move || copying.write(&project).map_err(|why| why.words());
             let thread = std::thread::Builder::new().name("copy".to_owned());
             self.writing = Some(thread.spawn(writing).map_err(|why| why.to_string())?);
             session.mark_copied(Some(journal));
@@ -105,7 +110,10 @@ impl Safety {
     fn join(&mut self, at_any_rate: bool) -> Result<(), String> {
         match self.writing.take_if(|writing| at_any_rate || writing.is_finished()) {
             Some(writing) => {
-                writing.join().unwrap_or_else(|_| Err(tr("the copy could not be written").to_owned()))
+                let written = writing.join();
+                written
+                    .unwrap_or_else(|_| Err(words!("the copy could not be written")))
+                    .map_err(|why| said(&why))
             }
             None => Ok(()),
         }
@@ -178,7 +186,9 @@ impl App {
         let found = match left.read() {
             Ok(found) => found,
             Err(why) => {
-                return self.messages.error(say!("This work cannot be read; it is kept: {why}", why));
+                return self
+                    .messages
+                    .error(say!("This work cannot be read; it is kept: {why}", why = said(&why.words())));
             }
         };
         self.replace(found.project, left.about.path.clone());

@@ -13,7 +13,7 @@ use glam::DVec3;
 use crate::body::pose::motion::Clip;
 use crate::body::{Unit, UpAxis, guess_unit, import};
 use crate::geometry::mesh::TriMesh;
-use crate::geometry::words::Words;
+use crate::geometry::words::{Words, words};
 use crate::io::body_file;
 use crate::io::pattern_file::PatternFileError;
 use crate::io::pattern_formats::{self, PatternFormat, endings};
@@ -195,29 +195,29 @@ impl OnDisk {
 
 /// Reads a project.
 pub fn open(path: &Path) -> Result<Project, String> {
-    project_file::open(path).map_err(|e| in_words(path, Deed::Open, reason(e)))
+    project_file::open(path).map_err(|e| in_words(path, Deed::Open, &reason(&e)))
 }
 
 /// Writes a project.
 pub fn save(path: &Path, project: &Project) -> Result<(), String> {
-    project_file::save(path, project).map_err(|e| in_words(path, Deed::Save, reason(e)))
+    project_file::save(path, project).map_err(|e| in_words(path, Deed::Save, &reason(&e)))
 }
 
 /// Writes a project over a write-protected file.
 pub fn save_over(path: &Path, project: &Project) -> Result<(), String> {
-    project_file::save_over(path, project).map_err(|e| in_words(path, Deed::Save, reason(e)))
+    project_file::save_over(path, project).map_err(|e| in_words(path, Deed::Save, &reason(&e)))
 }
 
 /// Writes a file atomically: whole or not at all.
 pub fn write(path: &Path, bytes: &[u8]) -> Result<(), String> {
-    whole_file::write(path, bytes).map_err(|e| in_words(path, Deed::Write, e))
+    whole_file::write(path, bytes).map_err(|e| in_words(path, Deed::Write, &whole_file::words(&e)))
 }
 
 /// The result of importing a pattern.
 #[derive(Debug)]
 pub enum PatternImport {
     /// The command that replaces the pattern, and notes for the user.
-    Pattern(Command, Vec<String>),
+    Pattern(Command, Vec<Words>),
     /// A question: the file does not state its unit of length.
     Question(ScaleQuestion),
 }
@@ -232,7 +232,7 @@ pub fn import_pattern(path: &Path, unit: Option<DrawingUnit>) -> Result<PatternI
             Ok(PatternImport::Pattern(command, read.notes))
         }
         Err(PatternFileError::Scale(question)) => Ok(PatternImport::Question(question)),
-        Err(error) => Err(in_words(path, Deed::Import, error)),
+        Err(error) => Err(in_words(path, Deed::Import, &error.words())),
     }
 }
 
@@ -246,15 +246,15 @@ fn rules_beside(path: &Path) -> Result<Option<Vec<u8>>, String> {
 pub fn export_pattern(path: &Path, pattern: &Pattern, paper: Paper) -> Result<Vec<Words>, String> {
     let ending = path.extension().unwrap_or_default().to_string_lossy();
     let Some(format) = PatternFormat::of_ending(&ending) else {
-        let words = say!("the name must end in {endings}", endings = endings(PatternFormat::ALL));
-        return Err(in_words(path, Deed::Write, words));
+        let words = words!("the name must end in {endings}", endings = endings(PatternFormat::ALL));
+        return Err(in_words(path, Deed::Write, &words));
     };
     let written = pattern_formats::write(format, pattern, &stem(path), paper);
-    let written = written.map_err(|e| in_words(path, Deed::Write, e))?;
+    let written = written.map_err(|e| in_words(path, Deed::Write, &e.words()))?;
     match written.rules {
         Some(rules) => {
             let files = [(path.to_owned(), written.bytes), (path.with_extension(rul::ENDING), rules)];
-            whole_file::write_together(&files).map_err(|(path, e)| in_words(&path, Deed::Write, e))?;
+            write_together(&files)?;
         }
         None => write(path, &written.bytes)?,
     }
@@ -268,7 +268,7 @@ pub fn write_marker(
     format: MarkerFormat,
     paper: Paper,
 ) -> Result<(), String> {
-    let bytes = made.file(format, paper).map_err(|e| in_words(path, Deed::Write, e))?;
+    let bytes = made.file(format, paper).map_err(|e| in_words(path, Deed::Write, &e.words()))?;
     write(path, &bytes)
 }
 
@@ -297,14 +297,14 @@ pub fn read_body(path: &Path) -> Result<RawBody, String> {
     let mut animated = None;
     let mesh = if gltf::is_gltf(&bytes) {
         let read = body_file::model_with_buffers(path, &bytes, &read);
-        let (model, buffers) = read.map_err(|e| in_words(path, Deed::Import, e))?;
+        let (model, buffers) = read.map_err(|e| in_words(path, Deed::Import, e.words()))?;
         if model.animations().next().is_some() {
             let (up, unit, name) = (UpAxis::default(), Unit::default(), name.clone());
             animated = Some(Box::new(AnimatedFile { name, bytes, buffers, up, unit }));
         }
         model.mesh()
     } else {
-        body_file::read(path, &bytes, &read).map_err(|e| in_words(path, Deed::Import, e))?
+        body_file::read(path, &bytes, &read).map_err(|e| in_words(path, Deed::Import, e.words()))?
     };
     let (lower, upper) = mesh.bounds();
     let size = upper - lower;
@@ -343,7 +343,8 @@ pub enum PoseFile {
 pub fn read_pose(path: &Path, dressed: &TriMesh) -> Result<PoseFile, String> {
     let bytes = read(path)?;
     if bvh::is_bvh(&bytes) {
-        return bvh::read(&bytes).map(PoseFile::Motion).map_err(|e| in_words(path, Deed::Read, e));
+        let read = bvh::read(&bytes).map(PoseFile::Motion);
+        return read.map_err(|e| in_words(path, Deed::Read, &e.words()));
     }
     let raw = RawBody { up: UpAxis::Y, ..read_body(path)? };
     let raw = RawBody { unit: unit_like(dressed, &raw.mesh), ..raw };
@@ -365,7 +366,7 @@ pub(in crate::ui) fn unit_like(dressed: &TriMesh, raw: &TriMesh) -> Unit {
 }
 
 /// The command that replaces the body by `raw`, and notes on what was corrected.
-pub fn take_body(raw: RawBody) -> Result<(Command, Vec<String>), String> {
+pub fn take_body(raw: RawBody) -> Result<(Command, Vec<Words>), String> {
     let animations = animations(&raw)?;
     let (body, notes) = imported(raw)?;
     Ok((Command::SetBody { body, animations }, notes))
@@ -374,11 +375,12 @@ pub fn take_body(raw: RawBody) -> Result<(Command, Vec<String>), String> {
 /// The animations of `raw`, if it has any.
 fn animations(raw: &RawBody) -> Result<Option<Arc<Animations>>, String> {
     let Some(file) = raw.animated.as_deref() else { return Ok(None) };
-    let (animations, _) = Animations::new(AnimatedFile { up: raw.up, unit: raw.unit, ..file.clone() })?;
+    let animations = Animations::new(AnimatedFile { up: raw.up, unit: raw.unit, ..file.clone() });
+    let (animations, _) = animations.map_err(|why| said(&why))?;
     Ok(Some(Arc::new(animations)))
 }
 
-fn imported(mut raw: RawBody) -> Result<(BodyChoice, Vec<String>), String> {
+fn imported(mut raw: RawBody) -> Result<(BodyChoice, Vec<Words>), String> {
     raw.up.set_upright(&mut raw.mesh);
     let imported = import(raw.mesh, raw.unit);
     if !imported.is_usable() {
@@ -400,7 +402,7 @@ pub fn take_image(path: &Path) -> Result<Command, String> {
 
 /// Light from all sides out of the image at `path`.
 pub fn read_environment(path: &Path) -> Result<Harmonics, String> {
-    light_of(&read(path)?).map_err(|why| in_words(path, Deed::Read, why))
+    light_of(&read(path)?).map_err(|why| in_words(path, Deed::Read, &why))
 }
 
 /// The files of the dressed garment of `snapshot` with its trims and textures: as .obj with files beside it, as .glb or USD
@@ -416,14 +418,15 @@ pub fn exported(
     };
     let worn = Worn { garment, cloth, pattern, document };
     let body = snapshot.body.as_ref().map(|b| &b.mesh);
-    worn.files(WornOptions::default(), body, path).map_err(|e| in_words(path, Deed::Write, e))
+    worn.files(WornOptions::default(), body, path).map_err(|e| in_words(path, Deed::Write, &Words::plain(e)))
 }
 
 /// Writes files, all or none of them.
 pub fn write_together(files: &[(PathBuf, Vec<u8>)]) -> Result<(), String> {
     match files {
         [(path, bytes)] => write(path, bytes),
-        _ => whole_file::write_together(files).map_err(|(path, e)| in_words(&path, Deed::Write, e)),
+        _ => whole_file::write_together(files)
+            .map_err(|(path, e)| in_words(&path, Deed::Write, &whole_file::words(&e))),
     }
 }
 
@@ -445,7 +448,7 @@ pub fn use_mannequin() -> Command {
 
 /// Reads the whole file at `path`. The error is a message.
 pub fn read(path: &Path) -> Result<Vec<u8>, String> {
-    whole_file::read(path, FILE_BYTES).map_err(|e| in_words(path, Deed::Read, e))
+    whole_file::read(path, FILE_BYTES).map_err(|e| in_words(path, Deed::Read, &whole_file::words(&e)))
 }
 
 /// The next version of a file name that does not exist yet: "shirt-2.toile" for "shirt.toile", "shirt-8.toile" for
@@ -473,10 +476,10 @@ pub fn stem(path: &Path) -> String {
 }
 
 /// The message of an error without the file's name, which is given before it.
-fn reason(error: ProjectFileError) -> String {
+fn reason(error: &ProjectFileError) -> Words {
     match error {
-        ProjectFileError::File { source, .. } => source.to_string(),
-        other => other.to_string(),
+        ProjectFileError::File { source, .. } => whole_file::words(source),
+        other => other.words(),
     }
 }
 
@@ -491,7 +494,8 @@ enum Deed {
     Take,
 }
 
-fn in_words(path: &Path, deed: Deed, why: impl std::fmt::Display) -> String {
+fn in_words(path: &Path, deed: Deed, why: &Words) -> String {
+    let why = said(why);
     let name =
         path.file_name().map_or_else(|| path.display().to_string(), |n| n.to_string_lossy().into_owned());
     match deed {

@@ -13,7 +13,7 @@ use crate::io::materials::Colours;
 use crate::io::obj;
 use crate::session::{AnimatedFile, Animations, Command};
 use crate::ui::files::{read, unit_like};
-use crate::ui::language::say;
+use crate::ui::language::{said, say};
 
 /// Frames per second.
 const RATE: f64 = 30.0;
@@ -39,7 +39,8 @@ pub fn read_sequence(path: &Path, dressed: &TriMesh) -> Result<(Command, usize),
     let mut unit = None;
     let mut pictures: Vec<Vec<DVec3>> = Vec::new();
     for file in &files {
-        let mesh = obj::read(&read(file)?).map_err(|e| format!("{}: {e}", file.display()))?.mesh;
+        let mesh = obj::read(&read(file)?);
+        let mesh = mesh.map_err(|e| format!("{}: {}", file.display(), said(&e.words())))?.mesh;
         // The unit of the first file holds for all: guessed from each, it would change when the person sits down.
         let unit = *unit.get_or_insert_with(|| unit_like(dressed, &mesh));
         let positions = positions(mesh, unit, dressed);
@@ -50,7 +51,8 @@ pub fn read_sequence(path: &Path, dressed: &TriMesh) -> Result<(Command, usize),
     let written = write_moving_body(&dressed.triangles, &pictures, RATE, &Colours::default());
     let bytes = written.map_err(|e| format!("{}: {e}", path.display()))?;
     let (up, unit, buffers) = (UpAxis::Y, Unit::Metre, BTreeMap::new());
-    let (animations, _) = Animations::new(AnimatedFile { name, bytes, buffers, up, unit })?;
+    let animations = Animations::new(AnimatedFile { name, bytes, buffers, up, unit });
+    let (animations, _) = animations.map_err(|why| said(&why))?;
     Ok((Command::TakeAnimations { animations: Arc::new(animations) }, files.len()))
 }
 

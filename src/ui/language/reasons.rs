@@ -1,18 +1,28 @@
 //! Tests that the reasons of other rooms are told in German: each error in every variant, problems of patterns, what is refused.
 
+use std::path::Path;
 use std::sync::Arc;
 
 use glam::DVec2;
 
 use crate::body::mannequin::{MannequinError, Measurements};
+use crate::body::{Unit, import};
 use crate::cloth;
 use crate::drape::SheetError;
-use crate::geometry::words::{Part, Value, Words};
+use crate::geometry::shapes::cylinder;
+use crate::geometry::words::{Part, Value, Words, words};
+use crate::io::bvh::{self, BvhError};
+use crate::io::pattern_file::PatternFileError;
 use crate::io::pdf::PdfError;
+use crate::io::sizes::{self, SizesError};
+use crate::io::{body_file, environment, pattern_formats, picture, rul};
 use crate::language::{Table, said, shown_in};
 use crate::marker::MarkerError;
 use crate::pattern::{EdgeRef, Pattern, Piece, ProblemKind, Seam};
-use crate::session::{Command, Project, Session};
+use crate::session::project_file::{self, ProjectFileError};
+use crate::session::recording::Recording;
+use crate::session::replay::Divergence;
+use crate::session::{Command, Project, Session, whole_file};
 use crate::sim::{Runner, Simulation};
 
 /// Asserts that German has every text of `words`.
@@ -185,4 +195,124 @@ fn what_is_refused_and_what_was_done_is_told_in_german() {
     let [undo, _] = session.next_labels();
     assert_eq!(german(undo.expect("a step")), "Ärmel {n} hinzufügen");
     assert_eq!(session.undo_label(), Some("add Ärmel {n}"));
+}
+
+/// Asserts that German tells `words`, and otherwise than English.
+fn is_told(words: &Words) {
+    assert_ne!(german(words), words.as_str());
+}
+
+#[test]
+fn why_a_pattern_cannot_be_read_is_told_in_german() {
+    for bytes in [
+        &b""[..],
+        b"{",
+        b"{}",
+        b"{\"properties\": 1}",
+        b"{\"properties\": {\"units_in_meter\": 1e9}}",
+        b"%PDF-1.7",
+        b"AC1015",
+        b"0\nSECTION\n2\nENTITIES\nx\n1\n",
+        b"0\nSECTION\n2\nENTITIES\n0\nENDSEC\n0\nEOF\n",
+        b"<svg",
+        b"<html/>",
+        b"<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"one\"/>",
+        b"<svg xmlns=\"http://www.w3.org/2000/svg\"><path d=\"M0 0H200V300Z\"/></svg>",
+    ] {
+        let why = pattern_formats::read(bytes, None).expect_err("no pattern");
+        match why {
+            // Another variant belongs into this test.
+            PatternFileError::Bad { .. }
+            | PatternFileError::Whole(_)
+            | PatternFileError::OverLimit(_)
+            | PatternFileError::Scale(_) => {}
+        }
+        is_told(&why.words());
+    }
+    for table in ["", "UNITS: FURLONG", "SIZE LIST: S M", "RULE: DELTA 1 2,x", "RULE: DELTA 1 2"] {
+        is_told(&rul::read(table.as_bytes()).expect_err("no table").words());
+    }
+    let why =
+        pattern_formats::read(b"{\"properties\": {\"units_in_meter\": 0.0005}}", None).expect_err("no unit");
+    let told = german(&why.words());
+    assert_eq!(told, "/properties/units_in_meter: 0,0005 Einheiten je Meter können nicht sein");
+}
+
+#[test]
+fn why_a_body_a_motion_or_a_table_cannot_be_read_is_told_in_german() {
+    let none = |_: &Path| Err("its buffer is not there".to_owned());
+    for bytes in [
+        &b""[..],
+        b"\0",
+        b"v 1 2\n",
+        b"v 1 2 3,5\n",
+        b"v 1 2 3\nf 0 1 2\n",
+        b"hello\n",
+        b"glTF\x02\0\0\0\x01\0\0\0",
+    ] {
+        is_told(body_file::read(Path::new("body.obj"), bytes, &none).expect_err("no body").words());
+    }
+    let motions = ["x", "HIERARCHY", "HIERARCHY\nROOT a\n{\nOFFSET 1\n}", "HIERARCHY\nROOT a\n{\nx\n}"];
+    for text in motions {
+        let why = bvh::read(text.as_bytes()).expect_err("no motion");
+        match why {
+            // Another variant belongs into this test.
+            BvhError::Line { .. } | BvhError::OverLimit(_) => {}
+        }
+        is_told(&why.words());
+    }
+    for text in ["", "size\nM\n", "size,bust\nM,x\n", "size,bust\n", "size,height\nM,500\n"] {
+        let why = sizes::read(text.as_bytes()).and_then(|sizes| sizes[0].checked()).expect_err("no size");
+        match why {
+            // Another variant belongs into this test.
+            SizesError::File(_)
+            | SizesError::Cell { .. }
+            | SizesError::Row { .. }
+            | SizesError::OverLimit(_) => {}
+        }
+        is_told(&why.words());
+    }
+    is_told(&picture::read(b"GIF89a").expect_err("no picture"));
+    is_told(&environment::read(b"GIF89a").expect_err("no environment"));
+}
+
+#[test]
+fn what_was_found_in_a_body_is_told_in_german() {
+    let mut mesh = cylinder(10.0, 170.0, 12, 8);
+    mesh.triangles[0].swap(0, 1);
+    mesh.positions.push(mesh.positions[0]);
+    let notes = import(mesh, Unit::Metre).notes;
+    assert!(notes.len() > 1, "{notes:?}");
+    notes.iter().for_each(is_told);
+    let last = notes.last().map(german).unwrap_or_default();
+    assert_eq!(
+        last,
+        "der Körper ist 170,000 m hoch; mit der Einheit cm wären es 1,70 m: mit dieser versuchen (--unit cm)"
+    );
+}
+
+#[test]
+fn why_a_project_or_a_recording_cannot_be_read_is_told_in_german() {
+    for bytes in [&b""[..], b"{}", b"PK", b"{\"format\": \"a\", \"version\": 1}"] {
+        let why = project_file::from_bytes(bytes).expect_err("no project");
+        match why {
+            // Another variant belongs into this test.
+            ProjectFileError::File { .. } | ProjectFileError::Contents(_) | ProjectFileError::TooLarge(_) => {
+            }
+        }
+        is_told(&why.words());
+    }
+    for text in ["", "x", "{\"header\": {\"format\": \"a\", \"version\": 1}}"] {
+        is_told(&Recording::parse(text).expect_err("no recording").words());
+    }
+    is_told(
+        &Divergence { tick: 3, seq: 2, words: words!("the recording goes back to tick {tick}", tick = 1) }
+            .words(),
+    );
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("long");
+    std::fs::write(&path, "long").expect("a file");
+    let why = whole_file::read(&path, 3).expect_err("too long");
+    assert_eq!(why.to_string(), "it has 4 bytes, at most 3 are read");
+    assert_eq!(german(&whole_file::words(&why)), "die Datei hat 4 Byte; gelesen werden höchstens 3");
 }

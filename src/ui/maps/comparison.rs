@@ -29,7 +29,7 @@ pub struct Comparison {
     pub difference: bool,
     outfit: Outfit,
     /// Matching with the present garment that was compared last; the error names the pieces that differ.
-    matched: Option<(Arc<Garment>, Result<Matching, String>)>,
+    matched: Option<(Arc<Garment>, Result<Matching, Words>)>,
     /// The map of this garment, of the kind that was shown last.
     map: Option<Map>,
     drawn: Option<(Place, Arc<Vec<Arc<Mesh>>>)>,
@@ -94,7 +94,7 @@ impl Comparison {
     /// The difference: `map` of `present` minus the same map of this garment. None if their pieces differ.
     pub fn less(&mut self, present: &Outfit, map: &Map) -> Option<Map> {
         if !self.matched.as_ref().is_some_and(|(of, _)| Arc::ptr_eq(of, &present.garment)) {
-            let matching = Matching::new(self.outfit.worn(), present.worn()).map_err(|why| why.to_string());
+            let matching = Matching::new(self.outfit.worn(), present.worn()).map_err(|why| why.0);
             self.matched = Some((Arc::clone(&present.garment), matching));
         }
         self.map(map.kind);
@@ -103,8 +103,8 @@ impl Comparison {
     }
 
     /// Why there is no difference to `present`, as a message.
-    pub fn unlike(&self) -> Option<&str> {
-        self.matched.as_ref()?.1.as_ref().err().map(String::as_str)
+    pub fn unlike(&self) -> Option<String> {
+        self.matched.as_ref()?.1.as_ref().err().map(said)
     }
 
     /// Builds the meshes of this garment, on the right of `present` or on the left, in the colours of the given map and range, on

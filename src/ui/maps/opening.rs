@@ -5,6 +5,7 @@ use std::sync::mpsc::{Receiver, TryRecvError, channel};
 
 use super::Comparison;
 use super::comparison::Unlike;
+use crate::language::{shown, shown_in};
 use crate::session::Outfit;
 use crate::ui::language::say;
 
@@ -21,10 +22,10 @@ impl Opening {
     pub fn begin(path: &Path, present: Outfit, ctx: &egui::Context) -> Result<Self, String> {
         let name = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
         let (send, coming) = channel();
-        let (path, ctx) = (path.to_owned(), ctx.clone());
+        let (path, table, ctx) = (path.to_owned(), shown(), ctx.clone());
         let work = move || {
             // Sending fails if the comparison was cancelled.
-            send.send(Comparison::open(&path, &present)).ok();
+            send.send(shown_in(table, || Comparison::open(&path, &present))).ok();
             ctx.request_repaint();
         };
         let thread = std::thread::Builder::new().name("comparison".to_owned()).spawn(work);

@@ -11,7 +11,7 @@ use crate::session::{Artwork, Command, Dye, Graphic, Repeated};
 use crate::ui::actions::asks::{Ask, Asks};
 use crate::ui::actions::{Action, Tool};
 use crate::ui::language::fields::drag_value;
-use crate::ui::language::{say, tr};
+use crate::ui::language::{said, say, tr};
 use crate::ui::panels::context::{PanelContext, problem_row};
 
 /// Width of lists, points.
@@ -30,7 +30,7 @@ pub fn artwork_ui(ui: &mut Ui, told: &PanelContext<'_>, asks: &mut Asks) {
             let words = say!(
                 "{image}: {why}. It is kept in the project, and squares are shown instead",
                 image = file.name,
-                why
+                why = said(why)
             );
             problem_row(ui, told.palette.error, &words, None, asks);
         }

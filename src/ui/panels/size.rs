@@ -26,7 +26,8 @@ pub struct SizePanel {
 impl SizePanel {
     /// Reads the sizes in `bytes`, from the file `path`. The error is a message.
     pub fn take(&mut self, path: &Path, bytes: &[u8]) -> Result<(), String> {
-        let sizes = sizes::read(bytes).map_err(|why| format!("{}: {why}", path.display()))?;
+        let sizes =
+            sizes::read(bytes).map_err(|why| format!("{}: {}", path.display(), said(&why.words())))?;
         let name = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
         self.table = Some((name, sizes));
         Ok(())

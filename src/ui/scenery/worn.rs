@@ -13,7 +13,7 @@ use crate::io::words::any_of;
 use crate::io::{glb, mtl, obj};
 use crate::pattern::Pattern;
 use crate::session::Document;
-use crate::ui::language::{counted, say};
+use crate::ui::language::{counted, said, say};
 use crate::ui::scenery::fabric_looks::materials;
 use crate::ui::scenery::fabric_textures::{Relief, TextureOptions, USUAL_SIDE, textured};
 
@@ -114,7 +114,7 @@ impl Worn<'_> {
         let ending = ending(path);
         let format = UsdFormat::of_ending(&ending);
         if !ENDINGS.contains(&ending.as_str()) {
-            return Err(say!("the name must end in {endings}", endings = any_of(ENDINGS)));
+            return Err(say!("the name must end in {endings}", endings = said(&any_of(ENDINGS))));
         }
         let (trims, left_out) = self.trims(options, MOST_STILL);
         let Self { garment, cloth: state, pattern, .. } = self;

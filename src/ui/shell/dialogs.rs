@@ -18,7 +18,7 @@ use crate::ui::actions::keymap::Keymap;
 use crate::ui::files::thumbnails::{Subject, Thumbnails};
 use crate::ui::files::{Purpose, RawBody};
 use crate::ui::language::keys::shortcut_text;
-use crate::ui::language::{number, say, tr};
+use crate::ui::language::{number, said, say, tr};
 use crate::ui::pointer::mouse::Mouse;
 use crate::ui::scenery::worn::WornFiles;
 
@@ -340,7 +340,7 @@ fn scale_ui(ctx: &egui::Context, path: &Path, question: &ScaleQuestion, unit: &m
         ui.heading(tr("How large is the pattern?"));
         ui.add_space(4.0);
         let name = path.file_name().unwrap_or_default().to_string_lossy();
-        ui.label(format!("{name}: {}.", tr(&question.why)));
+        ui.label(format!("{name}: {}.", said(&question.why)));
         ui.add_space(4.0);
         for &candidate in &question.candidates {
             let size = question.size(candidate) * 100.0;
