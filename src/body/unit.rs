@@ -3,6 +3,8 @@
 use std::fmt;
 use std::str::FromStr;
 
+use crate::geometry::words::{Words, within_quotes, words};
+
 /// A unit of length.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
 #[serde(rename_all = "snake_case")]
@@ -54,9 +56,24 @@ impl fmt::Display for Unit {
 }
 
 /// Error: a text that names no unit.
-#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-#[error("{0:?} is no unit of length; m, dm, cm, mm and in are known")]
+#[derive(Clone, Debug, PartialEq, Eq)]
 pub struct UnknownUnit(pub String);
+
+impl UnknownUnit {
+    /// The error in words.
+    pub fn words(&self) -> Words {
+        let text = within_quotes(&self.0);
+        words!("\"{text}\" is no unit of length; m, dm, cm, mm and in are known", text)
+    }
+}
+
+impl fmt::Display for UnknownUnit {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        self.words().fmt(f)
+    }
+}
+
+impl std::error::Error for UnknownUnit {}
 
 impl FromStr for Unit {
     type Err = UnknownUnit;

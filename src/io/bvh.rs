@@ -186,8 +186,8 @@ fn hierarchy(lines: &mut Lines<'_>) -> Result<Vec<ClipJoint>, BvhError> {
         } else {
             let words = words!(
                 "expected JOINT, End Site, OFFSET, CHANNELS or {brace}, found \"{found}\"",
-                brace = "}",
-                found = short(line)
+                found = short(line),
+                brace = "}"
             );
             return Err(lines.fault(words));
         }

@@ -98,8 +98,17 @@ fn in_words(error: &serde_json::Error) -> Words {
         "trailing characters" => words!("there is text after the end of the JSON"),
         "unexpected end of hex escape" => words!("half a surrogate pair in a text"),
         "recursion limit exceeded" => words!("nested too deeply"),
-        words => Words::plain(readable(words)),
+        "number out of range" => words!("number out of range"),
+        words => match doubled(words) {
+            Some(key) => readable_words(words!("the key \"{key}\" occurs twice", key)),
+            None => Words::plain(readable(words)),
+        },
     }
+}
+
+/// The key that occurs twice, as it stands between quotes, if that is what `words` say: the parser carries errors as text only.
+fn doubled(words: &str) -> Option<&str> {
+    words.strip_prefix("the key \"")?.strip_suffix("\" occurs twice")
 }
 
 fn line_and_column(bytes: &[u8], at: usize) -> (usize, usize) {

@@ -209,7 +209,7 @@ fn named(head: &str) -> Result<(&'static str, Unit), Words> {
     let (text, unit) = head.rsplit_once(['(', '[', ' ', '_', '/']).unwrap_or((head, ""));
     match (measurement(text), unit.parse::<Unit>()) {
         (Some(name), Ok(unit)) => Ok((name, unit)),
-        (Some(_), Err(why)) => Err(Words::plain(why.to_string())),
+        (Some(_), Err(why)) => Err(why.words()),
         (None, _) => Err(words!(
             "there is no measurement \"{name}\"; there are {names}",
             name = short(head),

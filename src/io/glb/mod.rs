@@ -7,6 +7,8 @@
 pub mod animated;
 mod images;
 
+use std::fmt;
+
 use glam::{DVec2, DVec3};
 use gltf_json::accessor::{ComponentType, GenericComponentType, Type};
 use gltf_json::buffer::{Buffer, Target, View};
@@ -18,21 +20,44 @@ use images::Map;
 
 use crate::geometry::ids::PieceId;
 use crate::geometry::mesh::{TriMesh, vertex_normals};
+use crate::geometry::words::{Words, words};
 use crate::io::dressed::{Dressed, PieceArrays, TrimArrays};
 use crate::io::materials::{ClothMaterial, ClothTextures, Colours, ROUGHNESS, Textures};
 
 /// Why no file was written.
-#[derive(Debug, thiserror::Error)]
+#[derive(Debug)]
 pub enum GlbError {
     /// There is neither cloth nor body to write.
-    #[error("there is nothing to write: no cloth is on the body yet")]
     Empty,
     /// The scene exceeds 4 GiB; lengths in GLB are 32-bit.
-    #[error("the scene is larger than 4 GiB, which is all a GLB file can hold")]
     TooLarge,
     /// The JSON part could not be written.
-    #[error("the glTF header cannot be written: {0}")]
-    Json(#[from] gltf_json::Error),
+    Json(gltf_json::Error),
+}
+
+impl GlbError {
+    /// The error in words.
+    pub fn words(&self) -> Words {
+        match self {
+            Self::Empty => words!("there is nothing to write: no cloth is on the body yet"),
+            Self::TooLarge => words!("the scene is larger than 4 GiB, which is all a GLB file can hold"),
+            Self::Json(why) => words!("the glTF header cannot be written: {why}", why = why.to_string()),
+        }
+    }
+}
+
+impl fmt::Display for GlbError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        self.words().fmt(f)
+    }
+}
+
+impl std::error::Error for GlbError {}
+
+impl From<gltf_json::Error> for GlbError {
+    fn from(error: gltf_json::Error) -> Self {
+        Self::Json(error)
+    }
 }
 
 /// Writes a scene; either part may be missing. Triangles that are not yet placed on the body are left out.

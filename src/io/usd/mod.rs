@@ -10,12 +10,14 @@ mod package;
 mod prim;
 mod shading;
 
+use std::fmt;
 use std::sync::Arc;
 
 use glam::DVec3;
 
 use crate::cloth::ClothState;
 use crate::geometry::mesh::{TriMesh, vertex_normals};
+use crate::geometry::words::{Words, words};
 use crate::io::dressed::{Dressed, Frame, PieceArrays, TrimArrays};
 use crate::io::materials::{ClothMaterial, Colours, ROUGHNESS};
 use meshes::{MeshArrays, MovedMesh};
@@ -33,18 +35,34 @@ const IN_PACKAGE: &str = "garment.usda";
 const COORDINATES: [&str; 2] = ["st", "st1"];
 
 /// Why no scene was written.
-#[derive(Debug, thiserror::Error)]
+#[derive(Debug)]
 pub enum UsdError {
     /// There is neither cloth nor body to write.
-    #[error("there is nothing to write: no cloth is on the body yet")]
     Empty,
     /// The package exceeds 4 GiB; lengths in it are 32-bit.
-    #[error("the scene is larger than 4 GiB, which is all a USDZ file can hold")]
     TooLarge,
     /// The package could not be written.
-    #[error("the USDZ file cannot be packed: {0}")]
     Package(String),
 }
+
+impl UsdError {
+    /// The error in words.
+    pub fn words(&self) -> Words {
+        match self {
+            Self::Empty => words!("there is nothing to write: no cloth is on the body yet"),
+            Self::TooLarge => words!("the scene is larger than 4 GiB, which is all a USDZ file can hold"),
+            Self::Package(why) => words!("the USDZ file cannot be packed: {why}", why),
+        }
+    }
+}
+
+impl fmt::Display for UsdError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        self.words().fmt(f)
+    }
+}
+
+impl std::error::Error for UsdError {}
 
 /// How a scene is written.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

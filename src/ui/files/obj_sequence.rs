@@ -49,7 +49,7 @@ pub fn read_sequence(path: &Path, dressed: &TriMesh) -> Result<(Command, usize),
         })?);
     }
     let written = write_moving_body(&dressed.triangles, &pictures, RATE, &Colours::default());
-    let bytes = written.map_err(|e| format!("{}: {e}", path.display()))?;
+    let bytes = written.map_err(|e| format!("{}: {}", path.display(), said(&e.words())))?;
     let (up, unit, buffers) = (UpAxis::Y, Unit::Metre, BTreeMap::new());
     let animations = Animations::new(AnimatedFile { name, bytes, buffers, up, unit });
     let (animations, _) = animations.map_err(|why| said(&why))?;

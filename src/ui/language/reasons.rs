@@ -12,9 +12,11 @@ use crate::drape::SheetError;
 use crate::geometry::shapes::cylinder;
 use crate::geometry::words::{Part, Value, Words, words};
 use crate::io::bvh::{self, BvhError};
+use crate::io::glb::GlbError;
 use crate::io::pattern_file::PatternFileError;
 use crate::io::pdf::PdfError;
 use crate::io::sizes::{self, SizesError};
+use crate::io::usd::UsdError;
 use crate::io::{body_file, environment, pattern_formats, picture, rul};
 use crate::language::{Table, said, shown_in};
 use crate::marker::MarkerError;
@@ -94,6 +96,25 @@ fn why_there_is_no_pdf_is_told_in_german() {
             | PdfError::TooLarge { .. }
             | PdfError::TooManyPages(_)
             | PdfError::Library(_) => {}
+        }
+        assert_ne!(german(&why.words()), why.to_string());
+    }
+}
+
+#[test]
+fn why_there_is_no_scene_is_told_in_german() {
+    let json = serde_json::from_str::<u8>("x").expect_err("no number");
+    for why in [GlbError::Empty, GlbError::TooLarge, GlbError::Json(json)] {
+        match why {
+            // Another variant belongs into this test.
+            GlbError::Empty | GlbError::TooLarge | GlbError::Json(_) => {}
+        }
+        assert_ne!(german(&why.words()), why.to_string());
+    }
+    for why in [UsdError::Empty, UsdError::TooLarge, UsdError::Package("full".to_owned())] {
+        match why {
+            // Another variant belongs into this test.
+            UsdError::Empty | UsdError::TooLarge | UsdError::Package(_) => {}
         }
         assert_ne!(german(&why.words()), why.to_string());
     }
@@ -207,6 +228,7 @@ fn why_a_pattern_cannot_be_read_is_told_in_german() {
     for bytes in [
         &b""[..],
         b"{",
+        b"{\"a\": 1, \"a\": 2}",
         b"{}",
         b"{\"properties\": 1}",
         b"{\"properties\": {\"units_in_meter\": 1e9}}",
@@ -261,7 +283,9 @@ fn why_a_body_a_motion_or_a_table_cannot_be_read_is_told_in_german() {
         }
         is_told(&why.words());
     }
-    for text in ["", "size\nM\n", "size,bust\nM,x\n", "size,bust\n", "size,height\nM,500\n"] {
+    for text in
+        ["", "size\nM\n", "size,bust\nM,x\n", "size,bust (ell)\nM,3\n", "size,bust\n", "size,height\nM,500\n"]
+    {
         let why = sizes::read(text.as_bytes()).and_then(|sizes| sizes[0].checked()).expect_err("no size");
         match why {
             // Another variant belongs into this test.

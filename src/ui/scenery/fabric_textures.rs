@@ -16,6 +16,7 @@ use crate::pattern::Pattern;
 use crate::render::bake::{self, Chart, Side};
 use crate::render::{CLOTH_BACK, Textile, cloth_front};
 use crate::session::Document;
+use crate::ui::language::say;
 use crate::ui::scenery::fabric_looks::{PieceLook, looks_of, material_of};
 use crate::ui::scenery::pictures::cloth_from_piece;
 
@@ -151,7 +152,7 @@ impl Images {
     fn add(&mut self, name: String, image: &RgbImage) -> Result<usize, String> {
         let mut bytes = Cursor::new(Vec::new());
         let written = image.write_to(&mut bytes, ImageFormat::Png);
-        written.map_err(|why| format!("the texture {name} cannot be encoded: {why}"))?;
+        written.map_err(|why| say!("the texture {name} cannot be encoded: {why}", name, why))?;
         self.written.push(TextureImage { name, png: Arc::new(bytes.into_inner()) });
         Ok(self.written.len() - 1)
     }

@@ -124,7 +124,7 @@ impl Worn<'_> {
             ("obj", _) => self.obj(options, &dressed, path)?,
             _ => {
                 let colours = self.colours(options, Relief::Tiles, true)?;
-                let bytes = glb::write(Some(dressed), body, &colours).map_err(|e| e.to_string())?;
+                let bytes = glb::write(Some(dressed), body, &colours).map_err(|e| said(&e.words()))?;
                 vec![(path.to_owned(), bytes)]
             }
         };
@@ -158,9 +158,9 @@ impl Worn<'_> {
             UsdFormat::Text => format!("{stem}-{name}.png"),
             UsdFormat::Package => packed_image(name),
         };
-        let scene = UsdScene::new(*dressed, body, &colours, image_path).map_err(|e| e.to_string())?;
+        let scene = UsdScene::new(*dressed, body, &colours, image_path).map_err(|e| said(&e.words()))?;
         if format == UsdFormat::Package {
-            return Ok(vec![(path.to_owned(), scene.package().map_err(|e| e.to_string())?)]);
+            return Ok(vec![(path.to_owned(), scene.package().map_err(|e| said(&e.words()))?)]);
         }
         let images = scene.images().iter().map(|(name, png)| (path.with_file_name(name), png.to_vec()));
         Ok(std::iter::once((path.to_owned(), scene.text().into())).chain(images).collect())
