@@ -261,6 +261,28 @@ fn why_a_pattern_cannot_be_read_is_told_in_german() {
 }
 
 #[test]
+fn what_was_left_out_of_a_pattern_is_told_in_german() {
+    let drawing = b"<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"400mm\" height=\"400mm\" viewBox=\"0 0 400 400\"><path d=\"M0 0H200V300H0Z\"/><path d=\"M300 300h1v1h-1Z\"/></svg>";
+    let notes = pattern_formats::read(drawing, None).expect("a pattern").notes;
+    let told: Vec<String> = notes.iter().map(german).collect();
+    assert_eq!(told, ["weggelassene kleine oder offene Linien außerhalb aller Schnittteile: 1"]);
+    let line = |ends: &str| format!("0\nLINE\n8\n1\n{ends}");
+    let ends = |from: [&str; 2], to: [&str; 2]| {
+        format!("10\n{}\n20\n{}\n11\n{}\n21\n{}\n", from[0], from[1], to[0], to[1])
+    };
+    let corners = [["0", "0"], ["300", "0"], ["300", "400"], ["0", "400"]];
+    let lines: String = (0..4).map(|i| line(&ends(corners[i], corners[(i + 1) % 4]))).collect();
+    let faulty = line(&ends(["0", "0,5"], ["1", "1"]));
+    let block =
+        format!("0\nSECTION\n2\nBLOCKS\n0\nBLOCK\n8\n1\n2\nfront\n70\n0\n10\n0\n20\n0\n{lines}{faulty}");
+    let drawing = format!("{block}0\nENDBLK\n8\n1\n0\nENDSEC\n0\nEOF\n");
+    let notes = pattern_formats::read(drawing.as_bytes(), None).expect("a pattern").notes;
+    notes.iter().for_each(is_told);
+    let told = german(&notes[0]);
+    assert!(told.ends_with(": „0,5“ ist keine Zahl (ein Dezimalkomma?); LINE wurde weggelassen"), "{told}");
+}
+
+#[test]
 fn why_a_body_a_motion_or_a_table_cannot_be_read_is_told_in_german() {
     let none = |_: &Path| Err("its buffer is not there".to_owned());
     for bytes in [
