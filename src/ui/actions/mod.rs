@@ -62,6 +62,8 @@ pub enum Tool {
     Drag(DragMode),
     /// Pins dressed cloth to where it is.
     Pin,
+    /// Draws lines of pieces on the dressed cloth.
+    ClothLine,
     /// Draws bones inside the body.
     Bone,
 }

@@ -75,7 +75,7 @@ pub struct Shown<'a> {
     pub selected: Option<MarkId>,
     /// Proposed marks that are not accepted yet.
     pub ghosts: Option<&'a Marks>,
-    /// Emphasised lines of pieces, each in its piece's own plane.
+    /// Emphasised lines of pieces, each in its piece's own plane; a line of one point is a dot.
     pub outlines: &'a [(PieceId, Vec<DVec2>)],
 }
 
@@ -148,6 +148,8 @@ const NEEDLE: [u8; 4] = [70, 74, 84, 255];
 const PIN_HEAD: [u8; 4] = [214, 48, 49, 255];
 /// Colour of emphasised lines, sRGB and opacity.
 const STANDS_OUT: [u8; 4] = [20, 132, 214, 255];
+/// Diameter of the dot at a point of an emphasised line, logical pixels.
+const DOT: f32 = 9.0;
 const HEM: [u8; 4] = [52, 58, 60, 170];
 
 impl Scenery {
@@ -400,7 +402,7 @@ fn push_bones(bones: &[Bone], scale: f32, scene: &mut Scene) {
     }
 }
 
-/// Adds emphasised lines of pieces at their position on the body.
+/// Adds emphasised lines of pieces at their position on the body; a line of one point is a dot.
 fn push_outlines(
     garment: &Garment,
     state: &ClothState,
@@ -411,9 +413,10 @@ fn push_outlines(
     for (piece, points) in outlines {
         let flat = FlatPiece::new(garment, *piece);
         let place = |p: &DVec2| Some(flat.nearest(garment, *p)?.point(garment, state)?.as_vec3());
-        let points: Vec<Vec3> = points.iter().filter_map(place).collect();
-        if points.len() > 1 {
-            let mut line = thin_line(points, STANDS_OUT, 4.0, scale);
+        let width = if points.len() == 1 { DOT } else { 4.0 };
+        let placed: Vec<Vec3> = points.iter().filter_map(place).collect();
+        if placed.len() > 1 || (points.len() == 1 && placed.len() == 1) {
+            let mut line = thin_line(placed, STANDS_OUT, width, scale);
             (line.lift, line.halo, line.halo_width) = (ON_CLOTH.0 * scale, WHITE, 1.2);
             scene.lines.push(line);
         }

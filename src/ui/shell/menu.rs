@@ -57,6 +57,7 @@ pub fn menu_bar_ui(ui: &mut egui::Ui, now: &FrameContext, asks: &mut Asks) {
             let drags = [DragMode::Surface, DragMode::Vertex, DragMode::Rigid];
             items(ui, now, asks, &drags.map(|mode| Action::Choose(Tool::Drag(mode))));
             items(ui, now, asks, &[Action::Choose(Tool::Pin), Action::ClearPins]);
+            items(ui, now, asks, &[Action::Choose(Tool::ClothLine)]);
             ui.separator();
             items(ui, now, asks, &[Action::Choose(Tool::Bone), Action::OwnBones, Action::NoBones]);
         });
