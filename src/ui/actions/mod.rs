@@ -189,6 +189,8 @@ pub enum Action {
     /// Show or hide the bar of the aperture.
     SetAperture,
     BodyLook(BodyLook),
+    /// Draw stitches along seams, or seams as lines alone.
+    ToggleSeamStitches,
     TogglePanel,
     Show(Panes),
     SwapPanes,

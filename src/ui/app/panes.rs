@@ -177,6 +177,7 @@ impl App {
             ghosts: self.ghosts.as_ref().map(|g| &g.marks),
             look: self.shell.sight.on(theme::look(self.scheme)),
             body_look: self.shell.sight.body_look,
+            plain_seams: self.shell.sight.plain_seams,
             palette,
         }
     }

@@ -64,6 +64,7 @@ impl ScenePane {
             size: UVec2::new(pixels.x.max(1.0) as u32, pixels.y.max(1.0) as u32),
             body: seen.body.cloned(),
             body_look: seen.body_look,
+            plain_seams: seen.plain_seams,
             cloth: seen.cloth.map(|(_, state)| Arc::clone(state)),
             marks: Some(Arc::clone(&seen.document.marks)),
             stroke: stroke.len() + far_stroke.len(),
@@ -87,6 +88,7 @@ impl ScenePane {
         let shown = Shown {
             body: seen.body,
             body_look: seen.body_look,
+            plain_seams: seen.plain_seams,
             cloth: seen.cloth,
             pattern: Some(&seen.document.pattern),
             marks: Some(&seen.document.marks),

@@ -37,6 +37,8 @@ pub struct Key {
     pub body: Option<Arc<Surface>>,
     /// How it is shown.
     pub body_look: BodyLook,
+    /// Whether seams are lines alone, without stitches.
+    pub plain_seams: bool,
     /// The cloth.
     pub cloth: Option<Arc<ClothState>>,
     /// The marks of the document.
@@ -80,6 +82,7 @@ impl PartialEq for Key {
             quality,
             body,
             body_look,
+            plain_seams,
             cloth,
             marks,
             stroke,
@@ -102,6 +105,7 @@ impl PartialEq for Key {
             && *size == other.size
             && *quality == other.quality
             && *body_look == other.body_look
+            && *plain_seams == other.plain_seams
             && *stroke == other.stroke
             && *pins == other.pins
             && *bones == other.bones

@@ -111,6 +111,8 @@ pub struct Seen<'a> {
     pub look: Look,
     /// How the body is shown.
     pub body_look: BodyLook,
+    /// Whether seams are drawn as lines alone, without stitches.
+    pub plain_seams: bool,
     /// Colours of the interface.
     pub palette: &'a Palette,
 }

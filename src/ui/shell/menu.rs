@@ -280,6 +280,8 @@ fn view_ui(ui: &mut egui::Ui, now: &FrameContext, asks: &mut Asks) {
         items(ui, now, asks, &[Action::EnvironmentMap, Action::RotateEnvironment]);
         ui.separator();
         items(ui, now, asks, &[Action::ToggleDepthOfField, Action::SetAperture]);
+        ui.separator();
+        item(ui, now, asks, Action::ToggleSeamStitches);
     });
     ui.menu_button(tr("Mouse"), |ui| items(ui, now, asks, &Mouse::ALL.map(Action::Mouse)));
 }
