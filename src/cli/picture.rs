@@ -87,7 +87,12 @@ impl Artist {
 
     /// Draws the body, the cloth and, where there is no cloth yet, the marks of `session`, as PNG.
     pub fn png(&mut self, session: &Session, options: &PictureOptions) -> Result<Vec<u8>, Failure> {
-        let extras = Extras { pins: true, body_look: options.body_look, ..Extras::default() };
+        let extras = Extras {
+            pins: true,
+            body_look: options.body_look,
+            plain_seams: options.plain_seams,
+            ..Extras::default()
+        };
         let scene = portrait(&mut self.scenery, session, extras);
         let size = UVec2::from_array(options.size);
         let look = Look {

@@ -51,7 +51,8 @@ impl Value {
 impl Words {
     /// `text` with `values` in place of its `{name}`s. `words!` makes them from a literal, which is then known to be in the tables.
     pub fn of(text: &'static str, values: Vec<(&'static str, Value)>) -> Self {
-        let english = filled(text, &values);
+        let value = |name: &str| Some(values.iter().find(|(known, _)| *known == name)?.1.english());
+        let english = filled(text, value);
         Self { english, parts: vec![Part::Text(Cow::Borrowed(text), values)] }
     }
 
@@ -93,19 +94,16 @@ impl Words {
     }
 }
 
-/// `text` with each `{name}` replaced by the English of the value of that name.
-fn filled(text: &str, values: &[(&'static str, Value)]) -> String {
+/// `text` with each `{name}` for which `value` knows a text replaced by it.
+pub fn filled<T: AsRef<str>>(text: &str, value: impl Fn(&str) -> Option<T>) -> String {
     let mut out = String::with_capacity(text.len() + 16);
     let mut rest = text;
     while let Some((before, after)) = rest.split_once('{') {
         out.push_str(before);
-        let found = after.split_once('}').and_then(|(name, after)| {
-            let (_, value) = values.iter().find(|(known, _)| *known == name)?;
-            Some((value, after))
-        });
+        let found = after.split_once('}').and_then(|(name, after)| Some((value(name)?, after)));
         match found {
             Some((value, after)) => {
-                out.push_str(value.english());
+                out.push_str(value.as_ref());
                 rest = after;
             }
             None => {

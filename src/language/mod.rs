@@ -20,6 +20,8 @@ mod table;
 use std::cell::Cell;
 use std::fmt::Display;
 
+use crate::geometry::words;
+
 pub use numbers::{decimal_sign, localised, number, parsed, short, signed};
 pub use said::said;
 pub use table::Table;
@@ -69,27 +71,8 @@ pub fn counted(n: usize, one: &str, many: &str) -> String {
 
 /// `template` with each `{name}` replaced by the value of that name.
 pub fn filled(template: &str, values: &[(&str, &dyn Display)]) -> String {
-    let mut out = String::with_capacity(template.len() + 16);
-    let mut rest = template;
-    while let Some((before, after)) = rest.split_once('{') {
-        out.push_str(before);
-        let found = after.split_once('}').and_then(|(name, after)| {
-            let (_, value) = values.iter().find(|(known, _)| *known == name)?;
-            Some((value, after))
-        });
-        match found {
-            Some((value, after)) => {
-                out.push_str(&value.to_string());
-                rest = after;
-            }
-            None => {
-                out.push('{');
-                rest = after;
-            }
-        }
-    }
-    out.push_str(rest);
-    out
+    let value = |name: &str| Some(values.iter().find(|(known, _)| *known == name)?.1.to_string());
+    words::filled(template, value)
 }
 
 /// A text with values in the language of the window: `say!("{count} of {total} pieces", count, total = 7)`. Every `{name}` is

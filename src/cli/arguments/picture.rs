@@ -31,6 +31,9 @@ pub struct PictureOptions {
     /// How the body is shown: skin, or form for a dress form covered in linen
     #[arg(long, value_name = "NAME", default_value = "skin")]
     pub body_look: BodyLook,
+    /// Draws seams as lines alone, without the stitches by which they are known in editing
+    #[arg(long)]
+    pub plain_seams: bool,
 }
 
 impl PictureOptions {
@@ -43,6 +46,7 @@ impl PictureOptions {
             supersample: 1,
             light: Light::Studio,
             body_look: BodyLook::Skin,
+            plain_seams: false,
         }
     }
 }

@@ -265,6 +265,7 @@ impl FrameContext {
             Action::ToggleDepthOfField => self.sight.lens.is_some(),
             Action::SetAperture => self.sets_aperture,
             Action::BodyLook(look) => self.sight.body_look == look,
+            Action::ToggleSeamStitches => !self.sight.plain_seams,
             Action::ToggleHistory => self.drawer == Some(Drawer::History),
             Action::ToggleLog => self.drawer == Some(Drawer::Log),
             Action::ToggleMapTable => self.drawer == Some(Drawer::Map),

@@ -62,6 +62,8 @@ pub enum Tool {
     Drag(DragMode),
     /// Pins dressed cloth to where it is.
     Pin,
+    /// Draws lines of pieces on the dressed cloth.
+    ClothLine,
     /// Draws bones inside the body.
     Bone,
 }
@@ -187,6 +189,8 @@ pub enum Action {
     /// Show or hide the bar of the aperture.
     SetAperture,
     BodyLook(BodyLook),
+    /// Draw stitches along seams, or seams as lines alone.
+    ToggleSeamStitches,
     TogglePanel,
     Show(Panes),
     SwapPanes,

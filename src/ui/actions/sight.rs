@@ -22,6 +22,8 @@ pub struct Sight {
     pub lens: Option<Lens>,
     /// How the body is shown.
     pub body_look: BodyLook,
+    /// Draw seams as lines alone, without stitches.
+    pub plain_seams: bool,
 }
 
 impl Default for Sight {
@@ -35,6 +37,7 @@ impl Default for Sight {
             environment: None,
             lens: None,
             body_look: BodyLook::Skin,
+            plain_seams: false,
         }
     }
 }
@@ -42,7 +45,8 @@ impl Default for Sight {
 impl Sight {
     /// `look` with the options of these that the renderer knows.
     pub fn on(self, look: Look) -> Look {
-        let Self { wire, sheer, xray, light, environment, lens, pairs: _, body_look: _ } = self;
+        let Self { wire, sheer, xray, light, environment, lens, pairs: _, body_look: _, plain_seams: _ } =
+            self;
         Look { wire, sheer, xray, light, environment, lens, ..look }
     }
 }

@@ -119,6 +119,8 @@ impl App {
             tr("Proposed marks: Enter takes them, Esc forgets them.").to_owned()
         } else if let Some(words) = self.scene_pane.hint_by_keys(self.tool, next(document.marks.body.len())) {
             words
+        } else if let Some(words) = self.scene_pane.hint_of_line(mouse) {
+            words
         } else if self.pattern_pane.hovered || self.pattern_pane.is_busy() {
             self.pattern_pane.hint(&self.laid(document, now, palette))
         } else if self.scene_pane.hovered {

@@ -19,7 +19,8 @@ impl App {
         if now.demo && !menu && ctx.input_mut(|i| i.consume_key(Modifiers::NONE, Key::Escape)) {
             return asks.push(Ask::Act(Action::StopDemo));
         }
-        let drawing = table.is_busy() || !scene.stroke().is_empty();
+        let on_cloth = scene.is_drawing_line();
+        let drawing = table.is_busy() || on_cloth || !scene.stroke().is_empty();
         let at_table = table.hovered || table.has_focus(ctx);
         if now.proposed > 0 && !menu && !drawing {
             for action in [Action::AcceptMarks, Action::DismissMarks] {
@@ -44,7 +45,7 @@ impl App {
             let taken = is_plain(keys)
                 && (menu
                     || (focused && [Key::Enter, Key::Space].contains(&keys.logical_key))
-                    || (table.is_busy() && of_table)
+                    || ((table.is_busy() || on_cloth) && of_table)
                     || (scene.has_focus(ctx) && scene.takes_key(keys.logical_key))
                     || (table.takes_numbers() && at_table && is_figure)
                     || (keys.logical_key == Key::Space && at_table)

@@ -94,6 +94,7 @@ impl App {
             (pane.hovered, pane.area, pane.id, pane.under) = (false, None, None, None);
         } else {
             let pane = &mut self.scene_pane;
+            pane.give_up_line();
             (pane.hovered, pane.area, pane.id, pane.under) = (false, None, None, None);
         }
     }
@@ -164,6 +165,8 @@ impl App {
             working: now.working,
             tool: now.tool,
             mouse: now.mouse,
+            unit: now.unit,
+            snapping: now.snapping,
             laser: self.laser,
             selected: now.selected.map(|(mark, _)| mark),
             bones,
@@ -174,6 +177,7 @@ impl App {
             ghosts: self.ghosts.as_ref().map(|g| &g.marks),
             look: self.shell.sight.on(theme::look(self.scheme)),
             body_look: self.shell.sight.body_look,
+            plain_seams: self.shell.sight.plain_seams,
             palette,
         }
     }

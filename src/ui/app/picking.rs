@@ -2,15 +2,16 @@
 
 use std::sync::Arc;
 
-use crate::geometry::ids::PinId;
+use crate::geometry::ids::{PieceId, PinId};
 use crate::pattern::Pattern;
+use crate::pattern::edit::PatternEdit;
 use crate::session::{Command, Document};
 use crate::sim::ClothPlace;
 use crate::ui::actions::Action;
 use crate::ui::app::App;
 use crate::ui::app::shell::Shell;
 use crate::ui::pattern_pane::edits;
-use crate::ui::selection::{Item, Selection};
+use crate::ui::selection::{Item, LineRef, Selection};
 
 /// The selection, and the pattern it refers to.
 #[derive(Debug, Default)]
@@ -23,10 +24,11 @@ pub struct Picks {
 }
 
 impl Picks {
-    /// Items drawn emphasised: selected edges and seams, and the one under the pointer.
+    /// Items drawn emphasised: selected edges, lines and seams, and the edge or seam under the pointer.
     pub fn standing_out(&self, highlight: Option<Item>) -> Vec<Item> {
-        let Selection { edges, seams, .. } = &self.selection;
+        let Selection { edges, lines, seams, .. } = &self.selection;
         let chosen = edges.iter().map(|&edge| Item::Edge(edge)).chain(seams.iter().map(|&id| Item::Seam(id)));
+        let chosen = chosen.chain(lines.iter().map(|&line| Item::Line(line)));
         let near = highlight.filter(|item| matches!(item, Item::Edge(_) | Item::Seam(_)));
         chosen.chain(near).collect()
     }
@@ -55,9 +57,10 @@ impl App {
         self.picks.spot = None;
     }
 
-    /// Applies `command` and selects the pieces and seams that it adds.
+    /// Applies `command` and selects the pieces, seams and internal lines that it adds.
     pub(in crate::ui) fn apply_and_select(&mut self, command: Command) {
         let is_edit = matches!(command, Command::EditPattern { .. });
+        let drawn_on = drawn_on(&command);
         let before = Arc::clone(&self.session.document().pattern);
         self.apply(command);
         let after = &self.session.document().pattern;
@@ -68,6 +71,9 @@ impl App {
         let mut new = Selection::of_pieces(pieces);
         if new.is_empty() {
             new.seams.extend(after.seams.keys().filter(|id| !before.seams.contains_key(id)));
+            let count = |of: &Pattern, id: &PieceId| of.pieces.get(id).map_or(0, |piece| piece.lines.len());
+            let more = drawn_on.into_iter().filter(|id| count(after, id) > count(&before, id));
+            new.lines.extend(more.map(|piece| LineRef { piece, line: count(after, &piece) - 1 }));
         }
         if !new.is_empty() {
             self.picks = Picks { selection: new, spot: None, of: Arc::clone(after) };
@@ -113,4 +119,14 @@ impl App {
             ctx.memory_mut(|m| m.request_focus(id));
         }
     }
+}
+
+/// The pieces that `command` draws an internal line on.
+fn drawn_on(command: &Command) -> Vec<PieceId> {
+    let Command::EditPattern { edits, .. } = command else { return Vec::new() };
+    let piece = |edit: &PatternEdit| match edit {
+        PatternEdit::AddLine { piece, .. } => Some(*piece),
+        _ => None,
+    };
+    edits.iter().filter_map(piece).collect()
 }

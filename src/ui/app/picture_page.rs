@@ -205,6 +205,7 @@ impl App {
                 pins: options.marks,
                 map: None,
                 body_look: self.shell.sight.body_look,
+                plain_seams: self.shell.sight.plain_seams,
             };
             let scene = portrait(&mut self.scenery, session, extras);
             camera = Camera { projection: camera.projection, ..Camera::default() };
@@ -242,6 +243,7 @@ impl App {
             pins: options.marks,
             map: map.map(|map| &map.colours),
             body_look: self.shell.sight.body_look,
+            plain_seams: self.shell.sight.plain_seams,
         };
         let scene = portrait(&mut self.scenery, session, extras);
         let graphics = self.scene_pane.graphics.as_ref().ok_or_else(no_adapter)?;

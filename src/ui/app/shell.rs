@@ -147,6 +147,7 @@ impl App {
             Action::ToggleDepthOfField => self.toggle_depth_of_field(ctx),
             Action::SetAperture => self.show_aperture(!self.shell.sets_aperture),
             Action::BodyLook(look) => self.shell.sight.body_look = look,
+            Action::ToggleSeamStitches => self.shell.sight.plain_seams = !self.shell.sight.plain_seams,
             Action::TogglePairs => self.shell.sight.pairs = !self.shell.sight.pairs,
             Action::ToggleHistory => self.shell.drawer = toggled(Drawer::History),
             Action::ToggleLog => self.shell.drawer = toggled(Drawer::Log),

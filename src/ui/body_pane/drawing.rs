@@ -3,11 +3,11 @@
 use std::sync::Arc;
 
 use egui::{Align2, Color32, FontId, Pos2, Rect};
-use glam::UVec2;
+use glam::{DVec2, UVec2};
 
 use super::outlines::outlines;
 use super::{Key, ScenePane, Seen};
-use crate::geometry::ids::MarkId;
+use crate::geometry::ids::{MarkId, PieceId};
 use crate::pattern::activity::Activity;
 use crate::render::{Look, Quality};
 use crate::session::Pin;
@@ -33,15 +33,28 @@ fn tell(painter: &egui::Painter, words: &str, ink: Color32) {
 }
 
 impl ScenePane {
+    /// Emphasised lines on the cloth: those of the pattern, the ring round a place, and the line being drawn.
+    fn emphasised(&self, seen: &Seen<'_>) -> Vec<(PieceId, Vec<DVec2>)> {
+        if seen.cloth.is_none() {
+            return Vec::new();
+        }
+        let pattern = &seen.document.pattern;
+        let lines = outlines(pattern, seen.stand_out).into_iter().chain(seen.spot.map(ring));
+        lines.chain(self.line_shown(pattern)).collect()
+    }
+
     pub(super) fn draw(&mut self, ui: &egui::Ui, seen: &Seen<'_>, near: Option<MarkId>, pane: Rect) {
         let painter = ui.painter_at(pane);
         let [stroke, far_stroke] = self.strokes().cloned().unwrap_or_default();
         let bones = self.shown_bones(seen);
+        let emphasised = self.emphasised(seen);
+        // While a line follows the pointer over the cloth, each motion needs another picture.
+        let follows = self.is_drawing_line() && ui.input(|i| i.pointer.is_moving());
         let Some(graphics) = &mut self.graphics else {
             let words = tr("No graphics adapter: the body cannot be shown.");
             return tell(&painter, words, seen.palette.weak);
         };
-        let draft = graphics.is_slow() && (self.moving || seen.working || !stroke.is_empty());
+        let draft = graphics.is_slow() && (self.moving || seen.working || follows || !stroke.is_empty());
         let scale = ui.ctx().pixels_per_point() * if draft { DRAFT } else { 1.0 };
         let pixels = (pane.size() * scale).round();
         let key = Key {
@@ -51,6 +64,7 @@ impl ScenePane {
             size: UVec2::new(pixels.x.max(1.0) as u32, pixels.y.max(1.0) as u32),
             body: seen.body.cloned(),
             body_look: seen.body_look,
+            plain_seams: seen.plain_seams,
             cloth: seen.cloth.map(|(_, state)| Arc::clone(state)),
             marks: Some(Arc::clone(&seen.document.marks)),
             stroke: stroke.len() + far_stroke.len(),
@@ -66,16 +80,15 @@ impl ScenePane {
             beside: seen.beside.cloned(),
             selected: seen.selected,
             ghosts: seen.ghosts.cloned(),
-            spot: seen.spot,
-            stand_out: if seen.cloth.is_some() { seen.stand_out.to_vec() } else { Vec::new() },
+            outlines: emphasised,
         };
         let (pins, bones, activities) = (key.pins.clone(), key.bones.clone(), key.activities.clone());
         let looks = Arc::clone(&key.looks);
-        let mut outlines = outlines(&seen.document.pattern, &key.stand_out);
-        outlines.extend(seen.spot.map(ring));
+        let outlines = key.outlines.clone();
         let shown = Shown {
             body: seen.body,
             body_look: seen.body_look,
+            plain_seams: seen.plain_seams,
             cloth: seen.cloth,
             pattern: Some(&seen.document.pattern),
             marks: Some(&seen.document.marks),

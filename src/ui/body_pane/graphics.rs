@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 use std::sync::{Arc, Mutex, PoisonError};
 
 use egui::TextureId;
-use glam::UVec2;
+use glam::{DVec2, UVec2};
 
 use crate::body::Surface;
 use crate::cloth::ClothState;
@@ -17,11 +17,9 @@ use crate::render::{
     Camera, FinePicture, Fineness, Gpu, Look, Mesh, OffscreenTarget, Quality, RenderError, Renderer, Rgb,
     Scene, straightened,
 };
-use crate::sim::ClothPlace;
 use crate::ui::scenery::body_look::BodyLook;
 use crate::ui::scenery::fabric_looks::PieceLooks;
 use crate::ui::scenery::scene::PinLook;
-use crate::ui::selection::Item;
 use crate::wrap::Marks;
 
 /// Everything that the picture depends on: with an equal key nothing is rendered again.
@@ -39,6 +37,8 @@ pub struct Key {
     pub body: Option<Arc<Surface>>,
     /// How it is shown.
     pub body_look: BodyLook,
+    /// Whether seams are lines alone, without stitches.
+    pub plain_seams: bool,
     /// The cloth.
     pub cloth: Option<Arc<ClothState>>,
     /// The marks of the document.
@@ -69,10 +69,8 @@ pub struct Key {
     pub selected: Option<MarkId>,
     /// Proposed marks.
     pub ghosts: Option<Arc<Marks>>,
-    /// Emphasised edges and seams.
-    pub stand_out: Vec<Item>,
-    /// The place marked by a ring.
-    pub spot: Option<ClothPlace>,
+    /// Emphasised lines of pieces and their points, each in its piece's own plane.
+    pub outlines: Vec<(PieceId, Vec<DVec2>)>,
 }
 
 impl PartialEq for Key {
@@ -84,6 +82,7 @@ impl PartialEq for Key {
             quality,
             body,
             body_look,
+            plain_seams,
             cloth,
             marks,
             stroke,
@@ -99,22 +98,21 @@ impl PartialEq for Key {
             dragged,
             map,
             beside,
-            stand_out,
-            spot,
+            outlines,
         } = self;
         *camera == other.camera
             && *look == other.look
             && *size == other.size
             && *quality == other.quality
             && *body_look == other.body_look
+            && *plain_seams == other.plain_seams
             && *stroke == other.stroke
             && *pins == other.pins
             && *bones == other.bones
             && *activities == other.activities
             && (Arc::ptr_eq(pattern, &other.pattern) || is_trimmed_alike(pattern, &other.pattern))
             && *looks == other.looks
-            && *stand_out == other.stand_out
-            && *spot == other.spot
+            && *outlines == other.outlines
             && *near == other.near
             && *selected == other.selected
             && same(body, &other.body)

@@ -29,6 +29,9 @@ pub fn hint(tool: Tool, mouse: Mouse, laser: bool, dressed: bool, next: usize) -
         ),
         Tool::Erase => say!("Click a mark: take it away · {view}", view),
         Tool::Pin => say!("Click: pin the cloth, or pull the pin out · Drag: a row of pins · {view}", view),
+        Tool::ClothLine => {
+            say!("Click the cloth: a corner of a line on that piece · Drag: turn · {view}", view)
+        }
         Tool::Drag(_) => say!("Drag the cloth · Esc: put it back · {view}", view),
         Tool::Bone => say!("Drag through the body: a bone · Ctrl+click a bone: take it away · {view}", view),
         Tool::Place => say!(

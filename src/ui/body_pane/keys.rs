@@ -1,6 +1,6 @@
 //! Painting, pinning and dragging by keyboard: arrow keys move a cursor over the picture, Space presses there.
 
-use egui::{EventFilter, Key, Painter, Pos2, Rect, Response, Stroke};
+use egui::{EventFilter, Key, Modifiers, Painter, Pos2, Rect, Response, Stroke};
 use glam::DVec3;
 
 use super::hand::{begun, cloth_at};
@@ -63,7 +63,7 @@ impl ScenePane {
     /// Whether the pane uses `key` itself now.
     pub fn takes_key(&self, key: Key) -> bool {
         match key {
-            Key::Enter => self.is_busy_by_keys(),
+            Key::Enter => self.is_busy_by_keys() || self.is_drawing_line(),
             Key::Space => self.by_keys.cross.is_some(),
             _ => false,
         }
@@ -88,6 +88,11 @@ impl ScenePane {
             }
             Tool::Drag(_) => tr("Arrows and Space: take the cloth · Shift: small steps").to_owned(),
             Tool::Pin => tr("Arrows and Space: pin the cloth, or pull the pin out").to_owned(),
+            Tool::ClothLine if self.is_drawing_line() => tr(
+                "Arrows and Space: the next corner · Enter: done · Backspace: one corner back · Esc: give up",
+            )
+            .to_owned(),
+            Tool::ClothLine => tr("Arrows and Space: begin a line · Shift: small steps").to_owned(),
             _ => tr("Arrows and Space: what a click does").to_owned(),
         })
     }
@@ -171,6 +176,7 @@ impl ScenePane {
                     None => asks.push(Ask::Say(tr("There is no cloth under the cross.").to_owned())),
                 }
             }
+            Tool::ClothLine => self.click_line(seen, pane, at, (Modifiers::NONE, false), asks),
             _ => self.click(seen, pane, at, [seen.tool == Tool::Erase, false], asks),
         }
     }

@@ -1,6 +1,7 @@
 //! The body pane: shows the body and the cloth on it; the pointer turns the view, paints and drags.
 
 mod bones;
+mod cloth_line;
 mod cube;
 mod drawing;
 mod facing;
@@ -43,10 +44,12 @@ use crate::ui::maps::ShownMap;
 use crate::ui::pointer::clicks::clicks;
 use crate::ui::pointer::mouse::{Mouse, PointerAction, held};
 use crate::ui::pointer::stroke;
+use crate::ui::preferences::units::LengthUnit;
 use crate::ui::scenery::body_look::BodyLook;
 use crate::ui::scenery::scene::Scenery;
 use crate::ui::selection::Item;
 use crate::wrap::Marks;
+use cloth_line::ClothLine;
 use cube::view_cube;
 pub use graphics::{Graphics, Key};
 use hand::{Reach, cloth_at};
@@ -84,6 +87,10 @@ pub struct Seen<'a> {
     pub tool: Tool,
     /// The mapping of mouse buttons.
     pub mouse: Mouse,
+    /// Unit in which lengths are shown.
+    pub unit: LengthUnit,
+    /// Whether the pointer snaps to points and edges of pieces.
+    pub snapping: bool,
     /// Laser mode: strokes go through to the far side of the body.
     pub laser: bool,
     /// The emphasised mark.
@@ -104,6 +111,8 @@ pub struct Seen<'a> {
     pub look: Look,
     /// How the body is shown.
     pub body_look: BodyLook,
+    /// Whether seams are drawn as lines alone, without stitches.
+    pub plain_seams: bool,
     /// Colours of the interface.
     pub palette: &'a Palette,
 }
@@ -135,6 +144,7 @@ pub struct ScenePane {
     drag: Option<Drag>,
     by_keys: ByKeys,
     reach: Reach,
+    line: ClothLine,
     /// Position of the pointer up to which the stroke is painted.
     followed: Option<Pos2>,
     framed_body: Option<Arc<Surface>>,
@@ -188,7 +198,9 @@ impl ScenePane {
         self.move_view(ui, seen, pane, &response);
         let near = self.mark_under(seen, pane, &response);
         self.listen(ui, seen, pane, &response, asks);
+        self.listen_for_line(ui, seen, &response, asks);
         self.listen_to_keys(ui, seen, pane, &response, asks);
+        self.aim_line(ui, seen, pane, &response);
         self.set_cursor(ui, seen, near, pane, &response);
         let reach = self.reach_under(seen, pane, &response);
         let hovered = response.hover_pos().filter(|_| self.drag.is_none());
@@ -202,6 +214,7 @@ impl ScenePane {
             publish_marks(ui, ghosts, true, pane, &self.camera);
         }
         self.publish_pins(ui, seen, pane);
+        self.line_ui(ui, seen, pane);
         view_cube(ui, pane, &self.camera, seen.palette, asks);
         self.buttons = Some(view_buttons(ui, pane, seen, asks));
     }
@@ -224,7 +237,12 @@ impl ScenePane {
         let erasing = seen.tool == Tool::Erase || held.command;
         let of_tool = seen.mouse.deed(PointerButton::Primary, held) == Some(PointerAction::Tool);
         for at in clicks(ui, response, PointerButton::Primary).into_iter().filter(|_| of_tool) {
-            self.click(seen, pane, at, [erasing, held.shift], asks);
+            if seen.tool == Tool::ClothLine {
+                response.request_focus();
+                self.click_line(seen, pane, at, (held, response.double_clicked()), asks);
+            } else {
+                self.click(seen, pane, at, [erasing, held.shift], asks);
+            }
         }
         for button in [PointerButton::Primary, PointerButton::Secondary, PointerButton::Middle] {
             if response.drag_started_by(button) {
@@ -387,6 +405,7 @@ impl ScenePane {
             Some(Drag::View(..) | Drag::Cloth(_) | Drag::Pin(_) | Drag::Stand(_)) => CursorIcon::Grabbing,
             Some(Drag::Paint(_) | Drag::Bone(_)) => CursorIcon::Crosshair,
             _ if response.dragged() => CursorIcon::Grabbing,
+            _ if seen.tool == Tool::ClothLine => self.line_cursor(),
             _ if erasing && near.is_some() => CursorIcon::PointingHand,
             _ if matches!(seen.tool, Tool::Drag(_) | Tool::Pin)
                 && cloth_at(seen, self.ray(pane, at)).is_some() =>

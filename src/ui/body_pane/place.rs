@@ -8,7 +8,7 @@ use egui::{Color32, Pos2, Rect, Sense, Shape, Stroke, WidgetInfo};
 use glam::{DVec2, DVec3};
 
 use super::handles::{Handle, Handles, Held, done, hold};
-use super::{Drag, ScenePane, Seen, size_of};
+use super::{Drag, ScenePane, Seen};
 use crate::drag::Ray;
 use crate::geometry::ids::PieceId;
 use crate::pattern::edit::PatternEdit;
@@ -100,12 +100,7 @@ impl ScenePane {
     /// The handles around the selected pieces that are placed.
     fn handles(&self, seen: &Seen<'_>, pane: Rect) -> Option<Handles> {
         let centre = centre(&seen.document.pattern, seen.places?.selected)?;
-        let size = size_of(pane);
-        let depth = self.camera.project(centre.as_vec3(), size)?;
-        // Size of a screen point at that depth.
-        let right = self.camera.rotation * glam::Vec3::X;
-        let beside = self.camera.project(centre.as_vec3() + right * 0.1, size)?;
-        let metres = 0.1 / f64::from((beside.pixel - depth.pixel).length().max(1e-3));
+        let metres = self.metres_per_point(centre, pane)?;
         Some(Handles::new(centre, metres, |p| self.place_of(p, pane)))
     }
 

@@ -64,6 +64,14 @@ impl ScenePane {
         Some(pane.min + egui::vec2(place.pixel.x, place.pixel.y))
     }
 
+    /// Size of a point of the screen at the depth of `at`, metres; None behind the eye.
+    pub(super) fn metres_per_point(&self, at: DVec3, pane: Rect) -> Option<f64> {
+        let (size, right) = (size_of(pane), self.camera.rotation * glam::Vec3::X);
+        let here = self.camera.project(at.as_vec3(), size)?;
+        let beside = self.camera.project(at.as_vec3() + right * 0.1, size)?;
+        Some(0.1 / f64::from((beside.pixel - here.pixel).length().max(1e-3)))
+    }
+
     /// Whether a point is not hidden by the body.
     pub fn is_in_sight(&self, seen: &Seen<'_>, point: DVec3) -> bool {
         let eye = match self.camera.projection {

@@ -1,5 +1,6 @@
 //! Colours, fonts and icons.
 
+pub(in crate::ui) mod chip;
 pub(in crate::ui) mod contrast;
 pub(in crate::ui) mod scheme;
 pub(in crate::ui) mod signs;

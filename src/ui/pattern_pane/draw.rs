@@ -10,6 +10,7 @@ use crate::geometry::ids::MarkId;
 use crate::pattern::Pattern;
 use crate::render::mark_colour;
 use crate::ui::language::tr;
+use crate::ui::look::chip::chip;
 use crate::ui::look::theme::{Palette, colour};
 use crate::ui::preferences::units::LengthUnit;
 use crate::wrap::Marks;
@@ -95,21 +96,7 @@ impl Drawing<'_> {
 
     /// Draws a text in the colour `ink` on a small background, beside a point of the screen.
     pub fn chip_in(&self, at: Pos2, words: &str, ink: Color32) {
-        let text = self.painter.layout_no_wrap(words.to_owned(), FontId::proportional(12.0), ink);
-        let size = text.size() + Vec2::new(12.0, 6.0);
-        let room = self.pane.shrink(4.0);
-        let least = room.min.to_vec2();
-        let most = (room.max - size).to_vec2().max(least);
-        let corner = (at + Vec2::new(14.0, 16.0)).to_vec2().clamp(least, most).to_pos2();
-        let patch = Rect::from_min_size(corner, size);
-        self.painter.rect(
-            patch,
-            5.0,
-            self.palette.overlay,
-            Stroke::new(1.0, self.palette.table_grid_strong),
-            egui::StrokeKind::Inside,
-        );
-        self.painter.galley(corner + Vec2::new(6.0, 3.0), text, ink);
+        chip(&self.painter, self.pane, at, words, ink, self.palette);
     }
 
     /// Draws the place that the pointer snapped to, and the name of what it snapped to.

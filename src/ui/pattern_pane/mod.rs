@@ -16,7 +16,7 @@ mod options;
 mod pictures;
 mod rulers;
 pub mod shapes;
-mod snap;
+pub(in crate::ui) mod snap;
 mod strip;
 mod table;
 pub mod threads;
@@ -378,7 +378,14 @@ impl PatternPane {
         }
         let painting = matches!(
             laid.tool,
-            Tool::Mark | Tool::Erase | Tool::Move | Tool::Drag(_) | Tool::Pin | Tool::Bone | Tool::Place
+            Tool::Mark
+                | Tool::Erase
+                | Tool::Move
+                | Tool::Drag(_)
+                | Tool::Pin
+                | Tool::ClothLine
+                | Tool::Bone
+                | Tool::Place
         );
         if tool.is_busy() {
             self.over = tool.is_dragging();

@@ -134,7 +134,7 @@ fn sign(painter: &Painter, area: Rect, tool: Tool, stroke: Stroke) {
         }
         Tool::Grain => line(&[[0.25, 0.28], [0.5, 0.0], [0.5, 1.0], [0.5, 0.0], [0.75, 0.28]]),
         Tool::Graphic => picture_sign(painter, area, stroke),
-        Tool::Mark | Tool::Erase | Tool::Drag(_) | Tool::Pin | Tool::Bone | Tool::Place => {
+        Tool::Mark | Tool::Erase | Tool::Drag(_) | Tool::Pin | Tool::ClothLine | Tool::Bone | Tool::Place => {
             painter.circle_filled(pos2(area.center().x, area.center().y), 3.0, stroke.color);
         }
     }

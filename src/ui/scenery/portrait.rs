@@ -21,6 +21,8 @@ pub struct Extras<'a> {
     pub map: Option<&'a Arc<Vec<Rgb>>>,
     /// How the body is shown.
     pub body_look: BodyLook,
+    /// Draw seams as lines alone, without stitches.
+    pub plain_seams: bool,
 }
 
 /// The scene of a session: the body and the cloth, with frozen and deactivated pieces in their colours; where nothing is dressed
@@ -41,6 +43,7 @@ pub fn portrait(scenery: &mut Scenery, session: &Session, extras: Extras<'_>) ->
         whole: whole.filter(|_| dressed && activities.values().any(Activity::is_deactivated)),
         map: extras.map,
         body_look: extras.body_look,
+        plain_seams: extras.plain_seams,
         pinned: if extras.pins { &snapshot.pinned } else { &[] },
         ..Shown::default()
     })

@@ -41,6 +41,8 @@ pub struct Shown<'a> {
     pub body: Option<&'a Arc<Surface>>,
     /// How the body is shown.
     pub body_look: BodyLook,
+    /// Draw seams as lines alone, as in a picture of the garment, not with stitches, by which they are known in editing.
+    pub plain_seams: bool,
     /// The garment, and its positions.
     pub cloth: Option<(&'a Arc<Garment>, &'a Arc<ClothState>)>,
     /// The pattern, whose stitches, zips and buttons are drawn on the cloth.
@@ -75,7 +77,7 @@ pub struct Shown<'a> {
     pub selected: Option<MarkId>,
     /// Proposed marks that are not accepted yet.
     pub ghosts: Option<&'a Marks>,
-    /// Emphasised lines of pieces, each in its piece's own plane.
+    /// Emphasised lines of pieces, each in its piece's own plane; a line of one point is a dot.
     pub outlines: &'a [(PieceId, Vec<DVec2>)],
 }
 
@@ -102,6 +104,7 @@ struct DrawnCloth {
     state: Arc<ClothState>,
     dragged: Option<Arc<Vec<f32>>>,
     map: Option<Arc<Vec<Rgb>>>,
+    plain_seams: bool,
     activities: BTreeMap<PieceId, Activity>,
     looks: Option<Arc<PieceLooks>>,
     /// Meshes of the cloth, which share their vertices.
@@ -148,6 +151,8 @@ const NEEDLE: [u8; 4] = [70, 74, 84, 255];
 const PIN_HEAD: [u8; 4] = [214, 48, 49, 255];
 /// Colour of emphasised lines, sRGB and opacity.
 const STANDS_OUT: [u8; 4] = [20, 132, 214, 255];
+/// Diameter of the dot at a point of an emphasised line, logical pixels.
+const DOT: f32 = 9.0;
 const HEM: [u8; 4] = [52, 58, 60, 170];
 
 impl Scenery {
@@ -215,13 +220,14 @@ impl Scenery {
     }
 
     fn draw_cloth(&mut self, garment: &Arc<Garment>, state: &Arc<ClothState>, shown: &Shown<'_>, scale: f32) {
-        let Shown { dragged, map, .. } = *shown;
+        let Shown { dragged, map, plain_seams, .. } = *shown;
         let activities = shown.activities.cloned().unwrap_or_default();
         let kept = self.cloth.as_ref().is_some_and(|c| {
             Arc::ptr_eq(&c.garment, garment)
                 && Arc::ptr_eq(&c.state, state)
                 && c.dragged.as_ref().map(Arc::as_ptr) == dragged.map(Arc::as_ptr)
                 && c.map.as_ref().map(Arc::as_ptr) == map.map(Arc::as_ptr)
+                && c.plain_seams == plain_seams
                 && c.activities == activities
                 && c.looks.as_ref() == shown.looks
         });
@@ -233,7 +239,10 @@ impl Scenery {
         // A cord covers what would be drawn along its edges.
         let piped = piped(garment);
         let which: Lined<'_> = (&is_seen, &piped);
-        let mut lines = stitched(seam_lines(garment, state, which, scale), scale);
+        let mut lines = seam_lines(garment, state, which, scale);
+        if !plain_seams {
+            lines = stitched(lines, scale);
+        }
         lines.extend(hem_lines(garment, state, which, scale));
         lines.extend(fold_lines(garment, state, which, scale));
         let mesh = Mesh {
@@ -255,6 +264,7 @@ impl Scenery {
             state: Arc::clone(state),
             dragged: dragged.cloned(),
             map: map.cloned(),
+            plain_seams,
             meshes: parted(
                 mesh,
                 garment,
@@ -400,7 +410,7 @@ fn push_bones(bones: &[Bone], scale: f32, scene: &mut Scene) {
     }
 }
 
-/// Adds emphasised lines of pieces at their position on the body.
+/// Adds emphasised lines of pieces at their position on the body; a line of one point is a dot.
 fn push_outlines(
     garment: &Garment,
     state: &ClothState,
@@ -411,9 +421,10 @@ fn push_outlines(
     for (piece, points) in outlines {
         let flat = FlatPiece::new(garment, *piece);
         let place = |p: &DVec2| Some(flat.nearest(garment, *p)?.point(garment, state)?.as_vec3());
-        let points: Vec<Vec3> = points.iter().filter_map(place).collect();
-        if points.len() > 1 {
-            let mut line = thin_line(points, STANDS_OUT, 4.0, scale);
+        let width = if points.len() == 1 { DOT } else { 4.0 };
+        let placed: Vec<Vec3> = points.iter().filter_map(place).collect();
+        if placed.len() > 1 || (points.len() == 1 && placed.len() == 1) {
+            let mut line = thin_line(placed, STANDS_OUT, width, scale);
             (line.lift, line.halo, line.halo_width) = (ON_CLOTH.0 * scale, WHITE, 1.2);
             scene.lines.push(line);
         }
@@ -643,15 +654,17 @@ mod tests {
     }
 
     #[test]
-    fn no_line_is_drawn_where_a_cord_lies() {
+    fn seams_are_lines_with_stitches_or_alone_and_nothing_where_a_cord_lies() {
         let mut pattern = Pattern::default();
         let corners = [(0.0, 0.0), (0.1, 0.0), (0.1, 0.1), (0.0, 0.1)].map(DVec2::from);
         let ids = [0, 1].map(|_| pattern.add_piece(Piece::polygon("square", &corners)));
         let sides = [EdgeRef { piece: ids[0], edge: 1 }, EdgeRef { piece: ids[1], edge: 3 }];
         pattern.add_seam(Seam::of_edges(sides, false));
-        let garment = build(&pattern, 0.02).0;
+        let garment = Arc::new(build(&pattern, 0.02).0);
         let count = garment.vertex_count;
-        let state = ClothState { positions: vec![DVec3::ZERO; count], mapped: vec![true; count] };
+        let mut state = ClothState { positions: vec![DVec3::ZERO; count], mapped: vec![true; count] };
+        garment.corners.iter().for_each(|c| state.positions[c.vertex as usize] = c.uv.extend(0.0));
+        let state = Arc::new(state);
         let pairs = &garment.seam_pairs[0].1;
         let along: Vec<[u32; 2]> = pairs
             .windows(2)
@@ -673,5 +686,11 @@ mod tests {
         let lower: BTreeSet<[u32; 2]> =
             ends.map(|[a, b]| [a.min(b), a.max(b)]).filter(|ends| ends.iter().all(|&v| lowest(v))).collect();
         assert_eq!((all, open(&lower)), (30, 20), "the lower edges of both have 10 sides");
+        let mut scenery = Scenery::default();
+        let [alone, stitched, again] = [true, false, true].map(|plain_seams| {
+            let shown = Shown { cloth: Some((&garment, &state)), plain_seams, ..Shown::default() };
+            scenery.scene(&shown).lines.len()
+        });
+        assert!(stitched > alone + 5 && again == alone, "{alone}, {stitched}, {again}");
     }
 }

@@ -57,6 +57,7 @@ pub fn menu_bar_ui(ui: &mut egui::Ui, now: &FrameContext, asks: &mut Asks) {
             let drags = [DragMode::Surface, DragMode::Vertex, DragMode::Rigid];
             items(ui, now, asks, &drags.map(|mode| Action::Choose(Tool::Drag(mode))));
             items(ui, now, asks, &[Action::Choose(Tool::Pin), Action::ClearPins]);
+            items(ui, now, asks, &[Action::Choose(Tool::ClothLine)]);
             ui.separator();
             items(ui, now, asks, &[Action::Choose(Tool::Bone), Action::OwnBones, Action::NoBones]);
         });
@@ -279,6 +280,8 @@ fn view_ui(ui: &mut egui::Ui, now: &FrameContext, asks: &mut Asks) {
         items(ui, now, asks, &[Action::EnvironmentMap, Action::RotateEnvironment]);
         ui.separator();
         items(ui, now, asks, &[Action::ToggleDepthOfField, Action::SetAperture]);
+        ui.separator();
+        item(ui, now, asks, Action::ToggleSeamStitches);
     });
     ui.menu_button(tr("Mouse"), |ui| items(ui, now, asks, &Mouse::ALL.map(Action::Mouse)));
 }

@@ -128,6 +128,15 @@ pub const ROWS: &[Row] = &[
     .needs(&[Need::Dressed]),
     row(
         "Garment",
+        Action::Choose(Tool::ClothLine),
+        "Line on the cloth",
+        "Click points on the dressed cloth to draw a line inside a piece, for folds, \
+         stitches or wrinkles; Enter ends it",
+    )
+    .keys(&[shift(Key::I)])
+    .needs(&[Need::Dressed]),
+    row(
+        "Garment",
         Action::Choose(Tool::Bone),
         "Draw bones",
         "Drag through the body to draw a bone, which cloth cannot be pulled across; \

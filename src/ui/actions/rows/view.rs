@@ -187,6 +187,13 @@ pub const ROWS: &[Row] = &[
     .in_demos(),
     row(
         "View › Theme",
+        Action::ToggleSeamStitches,
+        "Seam stitches",
+        "Draw stitches along seams, or seams as lines alone, as in a picture of the garment",
+    )
+    .in_demos(),
+    row(
+        "View › Theme",
         Action::ToggleDepthOfField,
         "Depth of field",
         "Blur what is nearer or farther than the point the view turns about, as a lens does",

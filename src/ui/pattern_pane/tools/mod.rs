@@ -88,7 +88,7 @@ pub fn handler(tool: Tool) -> Box<dyn PatternTool> {
         Tool::Mark => Box::new(marks::Marks::painting()),
         Tool::Erase => Box::new(marks::Marks::erasing()),
         Tool::Move | Tool::Place => Box::<select::Select>::default(),
-        Tool::Drag(_) | Tool::Pin | Tool::Bone => Box::new(select::Select::idle()),
+        Tool::Drag(_) | Tool::Pin | Tool::ClothLine | Tool::Bone => Box::new(select::Select::idle()),
         Tool::Points => Box::<points::Points>::default(),
         Tool::Pen => Box::new(pen::Pen::new(pen::Makes::Piece)),
         Tool::Line => Box::new(pen::Pen::new(pen::Makes::Line)),
