@@ -59,7 +59,16 @@ fn source(path: &Path) -> Source {
 }
 
 fn without_comments(text: &str) -> String {
-    text.lines().map(|line| line.split("//").next().unwrap_or_default()).collect::<Vec<_>>().join("\n")
+    // Between quotes, "//" is part of a text.
+    let is_text = |before: &str| {
+        let quotes = before.replace("\\\"", "").replace("'\"'", "").matches('"').count();
+        !quotes.is_multiple_of(2)
+    };
+    let code = |line: &str| {
+        let end = line.match_indices("//").map(|(at, _)| at).find(|&at| !is_text(&line[..at]));
+        line[..end.unwrap_or(line.len())].to_owned()
+    };
+    text.lines().map(code).collect::<Vec<_>>().join("\n")
 }
 
 /// For each folder of the map at the top of `src/lib.rs` the folders it may use.
