@@ -56,6 +56,8 @@ use threads::Threads;
 use tools::{PatternTool, handler};
 use view::TableView;
 
+/// Frames after the whole pattern was fitted in which it is fitted again where the pane changes.
+const FRAMES_OF_CHANGE: u8 = 2;
 /// Logarithm of the zoom factor per point of pointer motion.
 const ZOOM: f64 = 0.008;
 /// Step of the keyboard's cursor, in steps of an arrow key.
@@ -76,6 +78,8 @@ pub struct PatternPane {
     pub view: TableView,
     /// Whether to show the whole pattern in the next frame.
     pub fit: bool,
+    /// The pane for which the whole pattern was fitted, while it may still change: the size of text acts a frame after it is set.
+    fitted: Option<(Rect, u8)>,
     /// What to frame in the next frame.
     pub show: Option<Fit>,
     /// Whether the pointer was over the pane in the last frame.
@@ -290,7 +294,12 @@ impl PatternPane {
 
     fn fit_if_asked(&mut self, laid: &Laid<'_>, pane: Rect) {
         let pattern = &*laid.document.pattern;
-        let show = self.show.take().or(std::mem::take(&mut self.fit).then_some(Fit::All));
+        if std::mem::take(&mut self.fit) {
+            self.fitted = Some((Rect::NOTHING, FRAMES_OF_CHANGE));
+        }
+        let is_due = self.fitted.is_some_and(|(fitted, _)| fitted != pane);
+        self.fitted = self.fitted.and_then(|(_, left)| Some((pane, left.checked_sub(1)?)));
+        let show = self.show.take().or(is_due.then_some(Fit::All));
         match show {
             Some(Fit::All) => self.view.fit(pane, pattern),
             Some(Fit::Selection) => {

@@ -48,6 +48,8 @@ pub enum Dialog {
     ChangedOnDisk { path: PathBuf },
     /// Tells that the project could not be saved to the file, and why.
     NotSaved { path: PathBuf, words: String },
+    /// Asks whether to replace the file that is there already.
+    Exists { purpose: Purpose, path: PathBuf },
     /// Asks whether to replace files of these names, which belong beside the first of `written`.
     Beside { written: Box<WornFiles>, names: Vec<String> },
 }
@@ -97,7 +99,14 @@ impl Dialog {
     pub fn ui(&mut self, ctx: &egui::Context, thumbnails: &mut Thumbnails) -> Answer {
         match self {
             Self::Unsaved { then } => unsaved_ui(ctx, *then),
-            Self::Path { purpose, text } => path_ui(ctx, *purpose, text),
+            Self::Path { purpose, text } => match path_ui(ctx, *purpose, text) {
+                Answer::File(purpose, path) if purpose.writes() && path.exists() => {
+                    *self = Self::Exists { purpose, path };
+                    ctx.request_repaint();
+                    Answer::None
+                }
+                answer => answer,
+            },
             Self::Revert { path } => revert_ui(ctx, path),
             Self::Unit { raw } => unit_ui(ctx, raw),
             Self::Scale { path, question, unit } => scale_ui(ctx, path, question, unit),
@@ -106,6 +115,7 @@ impl Dialog {
             Self::TechPack { languages, chosen } => tech_pack_ui(ctx, languages, chosen),
             Self::ChangedOnDisk { path } => changed_ui(ctx, path),
             Self::NotSaved { path, words } => not_saved_ui(ctx, path, words),
+            Self::Exists { purpose, path } => exists_ui(ctx, *purpose, path),
             Self::Beside { written, names } => beside_ui(ctx, written, names),
         }
     }
@@ -138,8 +148,14 @@ fn question_ui(
         })
         .inner
     });
+    to_top(ctx, &shown);
     let closed = shown.should_close();
     shown.inner.or_cancel(closed)
+}
+
+/// Keeps a dialog above pages that were opened after one of its kind: a layer keeps its old place when it is shown again.
+fn to_top<T>(ctx: &egui::Context, shown: &egui::ModalResponse<T>) {
+    ctx.move_to_top(shown.response.layer_id);
 }
 
 fn unsaved_ui(ctx: &egui::Context, then: Action) -> Answer {
@@ -225,6 +241,16 @@ fn not_saved_ui(ctx: &egui::Context, path: &Path, words: &str) -> Answer {
     question_ui(ctx, "not saved", tr("Not saved"), &format!("{words}.\n{kept}"), buttons)
 }
 
+fn exists_ui(ctx: &egui::Context, purpose: Purpose, path: &Path) -> Answer {
+    let words = say!("{path} is there already, and would be replaced.", path = path.display());
+    let buttons = vec![
+        (tr("Replace it"), "", Answer::File(purpose, path.to_owned())),
+        (tr("Choose another name…"), "", Answer::Elsewhere(purpose)),
+        (tr("Cancel"), "", Answer::Cancel),
+    ];
+    question_ui(ctx, "exists", tr("Replace the file?"), &words, buttons)
+}
+
 fn beside_ui(ctx: &egui::Context, written: &mut WornFiles, names: &[String]) -> Answer {
     let words = say!(
         "The garment is written as several files. These are there already, and would be replaced: {names}",
@@ -259,10 +285,11 @@ fn path_ui(ctx: &egui::Context, purpose: Purpose, text: &mut String) -> Answer {
         let field = ui
             .add(TextEdit::singleline(text).desired_width(f32::INFINITY).hint_text("/home/me/shirt.toile"))
             .labelled_by(label.id);
+        // Asked before the field gets the focus back, which Enter takes from it.
+        let entered = field.lost_focus() && ui.input(|i| i.key_pressed(egui::Key::Enter));
         if !ui.memory(|m| m.focused().is_some()) {
             field.request_focus();
         }
-        let entered = field.lost_focus() && ui.input(|i| i.key_pressed(egui::Key::Enter));
         let picked = if purpose.writes() { None } else { files_ui(ui, purpose, text) };
         ui.add_space(8.0);
         ui.horizontal(|ui| {
@@ -280,6 +307,7 @@ fn path_ui(ctx: &egui::Context, purpose: Purpose, text: &mut String) -> Answer {
         })
         .inner
     });
+    to_top(ctx, &shown);
     let closed = shown.should_close();
     shown.inner.or_cancel(closed)
 }
@@ -509,7 +537,12 @@ impl NativeDialog {
         let waker = Waker::from(Arc::new(Repaint(ctx.clone())));
         match self.answer.as_mut().poll(&mut Context::from_waker(&waker)) {
             Poll::Pending => None,
-            Poll::Ready(Some(path)) => Some(Ok(with_extension(path, self.purpose))),
+            Poll::Ready(Some(path)) => {
+                let (purpose, whole) = (self.purpose, with_extension(path.clone(), self.purpose));
+                // The desktop has asked about the name that was chosen, not about the one with its ending.
+                let is_other = whole != path && whole.exists();
+                Some(if is_other { Err(Some(Dialog::Exists { purpose, path: whole })) } else { Ok(whole) })
+            }
             Poll::Ready(None) if self.opened.elapsed() < TOO_QUICK => {
                 Some(Err(Some(Dialog::Path { purpose: self.purpose, text: String::new() })))
             }
