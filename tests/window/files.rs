@@ -25,6 +25,33 @@ pub fn read_by(window: &mut Window, menu: &str, entry: &str, path: &Path) -> boo
 }
 
 #[test]
+fn enter_takes_the_path_and_a_file_that_is_there_is_asked_about() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("mine.toile");
+    std::fs::write(&path, "mine").expect("a file");
+    let mut window = super::hand::dressed_window();
+    for answer in ["Cancel", "Replace it"] {
+        super::hand::choose(&mut window, "File", "Save as…");
+        if super::hand::has_file_dialogs() {
+            return;
+        }
+        window.get_by_role(egui::accesskit::Role::TextInput).focus();
+        window.run_steps(2);
+        window.get_by_role(egui::accesskit::Role::TextInput).type_text(&path.display().to_string());
+        window.run_steps(2);
+        key(&mut window, Modifiers::NONE, Key::Enter);
+        window.run_steps(3);
+        assert!(window.query_by_label("Replace the file?").is_some(), "before {answer}");
+        assert_eq!(std::fs::read_to_string(&path).expect("text"), "mine");
+        window.get_by_label(answer).click();
+        window.run_steps(6);
+    }
+    wait(&mut window, "the project to be written", |_| {
+        std::fs::read(&path).is_ok_and(|bytes| bytes != b"mine")
+    });
+}
+
+#[test]
 fn a_body_in_centimetres_is_asked_about() {
     let folder = tempfile::tempdir().expect("a folder");
     let path = folder.path().join("ball.obj");

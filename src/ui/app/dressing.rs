@@ -48,7 +48,7 @@ impl App {
 fn words(started: &Started, has_marks: bool) -> String {
     let taken = started.taken();
     let dressed = match (taken.start, taken.draped) {
-        (Start::Placement, _) => tr("Dressed sewn from placement"),
+        (Start::Placement, _) => tr("Dressed from its placement, sewn"),
         (Start::Marks, true) if has_marks => tr("Dressed by its marks, draped"),
         (Start::Marks, true) => tr("Dressed by suggested marks, draped"),
         (Start::Marks, false) if has_marks => tr("Dressed by its marks, not draped"),

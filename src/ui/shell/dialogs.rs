@@ -281,9 +281,10 @@ fn path_ui(ctx: &egui::Context, purpose: Purpose, text: &mut String) -> Answer {
         ui.add_space(4.0);
         let (kind, endings) = purpose.filter();
         let label =
-            ui.label(say!("Path of the {kind} (.{endings})", kind = tr(kind), endings = endings.join(", .")));
+            ui.label(say!("Path: {kind} (.{endings})", kind = tr(kind), endings = endings.join(", .")));
+        let hint = format!("/home/me/name.{}", endings.first().unwrap_or(&"toile"));
         let field = ui
-            .add(TextEdit::singleline(text).desired_width(f32::INFINITY).hint_text("/home/me/shirt.toile"))
+            .add(TextEdit::singleline(text).desired_width(f32::INFINITY).hint_text(hint))
             .labelled_by(label.id);
         // Asked before the field gets the focus back, which Enter takes from it.
         let entered = field.lost_focus() && ui.input(|i| i.key_pressed(egui::Key::Enter));
