@@ -43,7 +43,7 @@ impl Artist {
         Self { environment, ..self }
     }
 
-    /// The same with this lens in [`Artist::png`].
+    /// The same with this lens in [`Artist::png`]; without a focus of its own it is focused by the middle of each picture.
     pub fn through(self, lens: Option<Lens>) -> Self {
         Self { lens, ..self }
     }
@@ -103,6 +103,7 @@ impl Artist {
             ..Look::light()
         };
         let camera = framed(&scene, options.view, size);
+        let look = look.focused(&camera, &scene);
         let fineness = Fineness::new(options.supersample);
         let mut picture = self.studio.fine(scene, camera, &look, size, fineness).map_err(failure)?;
         while !picture.is_done() {

@@ -167,15 +167,18 @@ impl Camera {
     pub fn projection(&self, aspect: f32) -> Mat4 {
         match self.projection {
             // An infinite far plane, and a near plane close enough to pass between the eye and anything it can look at.
-            Projection::Perspective => {
-                directx::perspective_infinite_reverse(self.fov_y, aspect, self.distance * 2e-3)
-            }
+            Projection::Perspective => directx::perspective_infinite_reverse(self.fov_y, aspect, self.near()),
             Projection::Orthographic => {
                 let (w, h) = (self.half_height() * aspect, self.half_height());
                 let far = self.eye_distance() + (self.pivot - self.bounds.0).length() + self.bounds.1 * 1.5;
                 directx::orthographic(-w, w, -h, h, far, 0.0)
             }
         }
+    }
+
+    /// Depth of the near plane of a perspective picture, metres: what is nearer is not drawn.
+    pub(super) fn near(&self) -> f32 {
+        self.distance * 2e-3
     }
 
     /// Half the height of the picture in the plane through the pivot, metres.

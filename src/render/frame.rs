@@ -122,7 +122,7 @@ pub(super) fn nearest_depth(camera: &Camera, scene: &Scene, size: Vec2) -> f32 {
         })
     });
     // Nothing is nearer than the near plane.
-    of_meshes.chain(of_ground).fold(f32::INFINITY, f32::min).max(camera.distance * 2e-3)
+    of_meshes.chain(of_ground).fold(f32::INFINITY, f32::min).max(camera.near())
 }
 
 /// Unit vector towards the lamp: above and left of the eye, so that folds show from every side.

@@ -4,7 +4,7 @@ use std::ops::RangeInclusive;
 
 use glam::UVec2;
 
-use super::{Camera, Projection};
+use super::{Camera, Projection, Scene};
 
 /// Longer side of the sensor behind the lens, metres: that of full-frame cameras, which is turned as the picture is.
 const SENSOR: f32 = 0.036;
@@ -16,7 +16,8 @@ const LARGEST: f32 = 1.0 / 40.0;
 pub struct Lens {
     /// Focal length divided by the diameter of the aperture, in [`Lens::F_NUMBERS`].
     pub f_number: f32,
-    /// Depth of the plane in focus, metres in front of the plane through the eye, above 0; None: that of the camera's pivot.
+    /// Depth of the plane in focus, metres in front of the plane through the eye, above 0; None: that of the camera's pivot,
+    /// unless [`Lens::focused`] finds a surface.
     pub focus: Option<f32>,
 }
 
@@ -34,6 +35,15 @@ pub struct Defocus {
 impl Lens {
     /// The f-numbers that a lens may have.
     pub const F_NUMBERS: RangeInclusive<f32> = 1.4..=22.0;
+
+    /// The same, focused on the first surface in the middle of a picture of `scene` from `camera`. A given plane stays in focus;
+    /// where the middle shows no mesh, and with a parallel projection, nothing changes.
+    pub fn focused(self, camera: &Camera, scene: &Scene) -> Self {
+        if self.focus.is_some() || camera.projection == Projection::Orthographic {
+            return self;
+        }
+        Self { focus: scene.depth_ahead(camera), ..self }
+    }
 
     /// The circles of confusion in a picture of `size` pixels from `camera`; None with a parallel projection, which no lens has.
     ///
@@ -70,7 +80,12 @@ impl Defocus {
 
 #[cfg(test)]
 mod tests {
+    use std::sync::Arc;
+
+    use glam::Vec3;
+
     use super::*;
+    use crate::render::Mesh;
 
     const SIZE: UVec2 = UVec2::new(1200, 800);
 
@@ -121,6 +136,32 @@ mod tests {
         assert!(near(fine.farthest, 2.0 * lying.farthest) && fine.most == 60.0);
         let parallel = Camera { projection: Projection::Orthographic, ..camera(0.05) };
         assert_eq!(lens.defocus(&parallel, SIZE), None);
+    }
+
+    #[test]
+    fn the_surface_in_the_middle_is_in_focus_or_else_the_pivot() {
+        let camera = camera(0.05);
+        // A triangle half a metre before the pivot.
+        let before = |x: f32| {
+            let corners = [(-0.1, -0.1), (0.1, -0.1), (0.0, 0.1)];
+            let place = |(right, up)| camera.pivot + Vec3::new(x + right, up, 0.5);
+            let mesh = Mesh {
+                positions: corners.map(place).to_vec(),
+                triangles: vec![[0, 1, 2]],
+                ..Mesh::default()
+            };
+            Scene { meshes: vec![Arc::new(mesh)], ..Scene::default() }
+        };
+        let focus = |focus: Option<f32>, camera: &Camera, scene: &Scene| {
+            Lens { f_number: 2.0, focus }.focused(camera, scene).focus
+        };
+        assert!(focus(None, &camera, &before(0.0)).is_some_and(|depth| near(depth, 2.0)));
+        assert_eq!(focus(Some(0.7), &camera, &before(0.0)), Some(0.7), "as it is given");
+        let beside = Lens { f_number: 2.0, focus: None }.focused(&camera, &before(0.3));
+        assert_eq!(beside.focus, None);
+        assert!(near(beside.defocus(&camera, SIZE).expect("perspective").focus, 2.5), "at the pivot");
+        let parallel = Camera { projection: Projection::Orthographic, ..camera };
+        assert_eq!(focus(None, &parallel, &before(0.0)), None);
     }
 
     #[test]

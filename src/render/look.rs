@@ -4,6 +4,7 @@ use super::harmonics::Harmonics;
 use super::lens::Lens;
 use super::light::Light;
 use super::scene::Rgb;
+use super::{Camera, Scene};
 
 /// Colours, light and display options of a picture. Colours are sRGB.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -55,6 +56,12 @@ const OVER: [Rgb; 4] = [[128, 166, 200], [218, 190, 128], [182, 152, 192], [150,
 pub const BODY: Rgb = [222, 201, 184];
 
 impl Look {
+    /// The same with its lens, if it has one, focused on what the middle of a picture of `scene` from `camera` shows; see
+    /// [`Lens::focused`].
+    pub fn focused(self, camera: &Camera, scene: &Scene) -> Self {
+        Self { lens: self.lens.map(|lens| lens.focused(camera, scene)), ..self }
+    }
+
     /// Colours for a light background.
     pub fn light() -> Self {
         Self {

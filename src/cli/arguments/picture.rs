@@ -58,7 +58,8 @@ pub struct LensOptions {
     /// 36 mm; the smaller, the stronger
     #[arg(long, value_name = "NUMBER", value_parser = f_number)]
     pub f_number: Option<f32>,
-    /// Distance from the eye to the plane in focus, metres; by default the middle of what is drawn is in focus
+    /// Distance from the eye to the plane in focus, metres; by default the first surface in the middle of
+    /// the picture is in focus, or where there is none the middle of what is drawn
     #[arg(long, value_name = "METRES", requires = "f_number", value_parser = focus)]
     pub focus: Option<f32>,
 }

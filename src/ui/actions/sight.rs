@@ -18,7 +18,7 @@ pub struct Sight {
     pub light: Light,
     /// Light from all sides out of an environment map, turned as chosen, in place of that of `light`.
     pub environment: Option<Harmonics>,
-    /// The lens that blurs what is out of focus.
+    /// The lens that blurs what is out of focus; without a focus, each picture focuses it by what its middle shows.
     pub lens: Option<Lens>,
     /// How the body is shown.
     pub body_look: BodyLook,

@@ -252,7 +252,7 @@ impl App {
         let look = Look {
             pixels_per_point: options.size.y as f32 / points.max(1.0),
             cut_out: options.cut_out,
-            ..self.shell.sight.on(theme::look(self.scheme))
+            ..self.shell.sight.on(theme::look(self.scheme)).focused(camera, &scene)
         };
         let fineness = Fineness::new(options.times);
         let drawing = graphics.fine(scene, *camera, &look, options.size, fineness);

@@ -193,7 +193,13 @@ impl Graphics {
         if self.drawn.as_ref() != Some(&key)
             && let Some((target, _)) = &self.target
         {
-            self.renderer.draw(&self.gpu, &scene(), &key.camera, &key.look, target)?;
+            let scene = scene();
+            // Drafts have no lens that would need a focus.
+            let look = match key.quality {
+                Quality::Finished => key.look.focused(&key.camera, &scene),
+                Quality::Draft => key.look,
+            };
+            self.renderer.draw(&self.gpu, &scene, &key.camera, &look, target)?;
             self.pictures += 1;
             self.drawn = Some(key);
         }

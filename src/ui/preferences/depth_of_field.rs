@@ -36,7 +36,7 @@ impl FNumber {
 }
 
 impl DepthOfField {
-    /// The lens, focused at the point that the view turns about; None while everything is sharp.
+    /// The lens, which each picture focuses by what its middle shows; None while everything is sharp.
     pub fn lens(&self) -> Option<Lens> {
         self.is_on.then(|| Lens { f_number: self.f_number.limited(), focus: None })
     }

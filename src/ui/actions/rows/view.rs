@@ -196,7 +196,7 @@ pub const ROWS: &[Row] = &[
         "View › Theme",
         Action::ToggleDepthOfField,
         "Depth of field",
-        "Blur what is nearer or farther than the point the view turns about, as a lens does",
+        "Blur what is nearer or farther than the surface in the middle of the picture, as a lens does",
     )
     .in_demos(),
     row(
