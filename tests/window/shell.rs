@@ -1,5 +1,6 @@
 //! Start page, tour, command palette, preferences, history, messages.
 
+use egui::accesskit::Role;
 use toile::session::project_file;
 
 use super::*;
@@ -493,4 +494,49 @@ fn a_window_of_any_size_and_shape_is_drawn() {
     // Everything is where it was.
     paint_both(&mut window);
     assert_eq!(counts(&window), [2, 2]);
+}
+
+/// On a screen of 1366 × 768 with text at 200 % the right end of the toolbar lay over its main button.
+#[test]
+fn buttons_of_a_narrow_window_lie_beside_or_above_each_other() {
+    let mut window = window();
+    let toolbar = |window: &Window, within: Rect| {
+        let [top, bottom] = [window.get_by_label("File").rect().bottom(), pane(window, "Pattern pane").top()];
+        let is_there = |rect: &Rect| rect.top() >= top && rect.bottom() <= bottom;
+        let buttons = window.get_all_by_role(Role::Button).map(|node| node.rect()).filter(is_there);
+        let mut found: Vec<Rect> = buttons.collect();
+        assert_eq!(found.len(), 12, "at {within}");
+        found.push(window.get_by_label("Map: No map").rect());
+        found
+    };
+    for (width, height) in [(1366.0, 768.0), (911.0, 512.0), (683.0, 384.0), (640.0, 500.0)] {
+        window.set_size(Vec2::new(width, height));
+        window.run_steps(6);
+        let within = Rect::from_min_size(Pos2::ZERO, Vec2::new(width, height));
+        let tools = toolbar(&window, within);
+        for name in ["Wrap", "Drape", "Undo", "Side panel"] {
+            assert!(tools.contains(&window.get_by_label(name).rect()), "{name} at {within}");
+        }
+        are_apart(&tools, within);
+        let body = pane(&window, "Body pane");
+        let names = ["Wireframe", "See through the body", "X-ray", "Show all"];
+        are_apart(&names.map(|name| window.get_by_label(name).rect()), body);
+    }
+    window.set_size(Vec2::new(1366.0, 768.0));
+    window.run_steps(6);
+    let tools = toolbar(&window, Rect::EVERYTHING);
+    assert!(
+        tools.iter().all(|rect| (rect.center().y - tools[0].center().y).abs() < 1.0),
+        "one row: {tools:?}"
+    );
+}
+
+/// Asserts that no two of `rects` overlap and that all lie in `within`.
+fn are_apart(rects: &[Rect], within: Rect) {
+    for (i, rect) in rects.iter().enumerate() {
+        assert!(within.contains_rect(*rect), "{rect} in {within}");
+        for other in &rects[..i] {
+            assert!(!rect.shrink(0.5).intersects(*other), "{rect} and {other} at {within}");
+        }
+    }
 }

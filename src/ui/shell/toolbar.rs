@@ -1,6 +1,8 @@
-//! The toolbar: tools, undo, and the main button.
+//! The toolbar: tools, undo, and the main button. Where the window is too narrow for one row it has several.
 
-use egui::{Align, Button, Id, Layout, RichText};
+use std::ops::Range;
+
+use egui::{Align, Button, Id, Layout, RichText, Separator};
 
 use crate::drag::DragMode;
 use crate::ui::actions::asks::{Ask, Asks};
@@ -13,45 +15,114 @@ use crate::ui::maps::chooser_ui;
 
 /// Height of the buttons, points.
 const HEIGHT: f32 = 30.0;
+/// Space between two buttons, points.
+const SPACING: f32 = 4.0;
+/// Width of the line between two groups, and the space on each of its sides, points.
+const LINE: f32 = 6.0;
+/// Space between two groups of a row, points.
+const GAP: f32 = SPACING + LINE + LINE + SPACING + LINE;
+/// Number of groups of buttons. After them comes what stands at the right end: the maps, and what is shown.
+const GROUPS: usize = 5;
+
+/// Widths of the groups and of the right end, points.
+type Widths = [f32; GROUPS + 1];
 
 /// Draws the toolbar. Returns its first button, for the keyboard focus.
+///
+/// Which parts share a row follows from their widths in the last frame.
 pub fn toolbar_ui(ui: &mut egui::Ui, now: &FrameContext, palette: &Palette, asks: &mut Asks) -> Option<Id> {
+    let main = if now.wrapping {
+        Action::CancelWrap
+    } else if now.is_for_dress() {
+        Action::Dress
+    } else {
+        Action::Wrap
+    };
+    let tools = [Tool::Mark, Tool::Erase, Tool::Drag(DragMode::Surface), Tool::Pin].map(Action::Choose);
+    let groups: [&[Action]; GROUPS] = [
+        &tools,
+        &[Action::ToggleLaser],
+        &[Action::Undo, Action::Redo],
+        &[main],
+        &[Action::ToggleRelaxing, Action::ToggleDrape],
+    ];
+    let id = Id::unique("widths of the toolbar");
+    let known: Widths = ui.data(|d| d.get_temp(id)).unwrap_or_default();
+    let mut widths = known;
     let mut first = None;
-    ui.horizontal(|ui| {
-        ui.spacing_mut().item_spacing.x = 4.0;
-        for tool in [Tool::Mark, Tool::Erase, Tool::Drag(DragMode::Surface), Tool::Pin] {
-            let id = plain(ui, now, asks, Action::Choose(tool), None);
-            first = first.or(Some(id));
-        }
-        gap(ui);
-        plain(ui, now, asks, Action::ToggleLaser, None);
-        gap(ui);
-        plain(ui, now, asks, Action::Undo, Some(tr("Undo")));
-        plain(ui, now, asks, Action::Redo, Some(tr("Redo")));
-        gap(ui);
-        if now.wrapping {
-            primary(ui, now, asks, Action::CancelWrap, palette.stop, palette);
-        } else if now.is_for_dress() {
-            primary(ui, now, asks, Action::Dress, palette.accent, palette);
-        } else {
-            primary(ui, now, asks, Action::Wrap, palette.accent, palette);
-        }
-        gap(ui);
-        plain(ui, now, asks, Action::ToggleRelaxing, None);
-        plain(ui, now, asks, Action::ToggleDrape, None);
-        ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
-            plain(ui, now, asks, Action::TogglePanel, None);
-            plain(ui, now, asks, Action::ToggleCloth, None);
-            chooser_ui(ui, now, asks);
+    for row in rows(&known, ui.available_width()) {
+        ui.horizontal(|ui| {
+            ui.spacing_mut().item_spacing.x = SPACING;
+            for part in row.clone() {
+                let Some(group) = groups.get(part) else {
+                    widths[part] = right_end_ui(ui, now, asks);
+                    continue;
+                };
+                if part > row.start {
+                    gap(ui);
+                }
+                let left = ui.cursor().left();
+                for &action in *group {
+                    let id = button_ui(ui, now, palette, asks, action);
+                    first = first.or(Some(id));
+                }
+                widths[part] = ui.min_rect().right() - left;
+            }
         });
-    });
+    }
+    if widths.iter().zip(&known).any(|(new, old)| (new - old).abs() > 0.1) {
+        ui.data_mut(|d| d.insert_temp(id, widths));
+        ui.ctx().request_repaint();
+    }
     first
 }
 
+/// The parts of each row: as many as stand beside each other in `room` points. A part that is wider has a row of its own.
+fn rows(widths: &Widths, room: f32) -> Vec<Range<usize>> {
+    let mut rows = Vec::new();
+    let (mut start, mut used) = (0, widths[0]);
+    for (part, width) in widths.iter().enumerate().skip(1) {
+        used += width + if part == GROUPS { SPACING } else { GAP };
+        if used > room {
+            rows.push(start..part);
+            (start, used) = (part, *width);
+        }
+    }
+    rows.push(start..widths.len());
+    rows
+}
+
+/// Draws what stands at the right end of its row. Returns its width, points.
+fn right_end_ui(ui: &mut egui::Ui, now: &FrameContext, asks: &mut Asks) -> f32 {
+    let drawn = ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
+        plain(ui, now, asks, Action::TogglePanel, None);
+        plain(ui, now, asks, Action::ToggleCloth, None);
+        chooser_ui(ui, now, asks);
+        ui.min_rect().width()
+    });
+    drawn.inner
+}
+
 fn gap(ui: &mut egui::Ui) {
-    ui.add_space(6.0);
-    ui.separator();
-    ui.add_space(6.0);
+    ui.add_space(LINE);
+    ui.add(Separator::default().spacing(LINE));
+    ui.add_space(LINE);
+}
+
+fn button_ui(
+    ui: &mut egui::Ui,
+    now: &FrameContext,
+    palette: &Palette,
+    asks: &mut Asks,
+    action: Action,
+) -> Id {
+    match action {
+        Action::Undo => plain(ui, now, asks, action, Some(tr("Undo"))),
+        Action::Redo => plain(ui, now, asks, action, Some(tr("Redo"))),
+        Action::CancelWrap => primary(ui, now, asks, action, palette.stop, palette),
+        Action::Dress | Action::Wrap => primary(ui, now, asks, action, palette.accent, palette),
+        _ => plain(ui, now, asks, action, None),
+    }
 }
 
 fn plain(ui: &mut egui::Ui, now: &FrameContext, asks: &mut Asks, action: Action, text: Option<&str>) -> Id {
@@ -68,14 +139,14 @@ fn primary(
     action: Action,
     fill: egui::Color32,
     palette: &Palette,
-) {
+) -> Id {
     let mut text = RichText::new(tr(action.row().text)).size(15.5).strong();
     let mut button_fill = ui.visuals().widgets.inactive.weak_bg_fill;
     if now.why_not(action).is_none() {
         text = text.color(palette.on_accent);
         button_fill = fill;
     }
-    press(ui, now, asks, action, Button::new(text).fill(button_fill).min_size(egui::vec2(108.0, HEIGHT)));
+    press(ui, now, asks, action, Button::new(text).fill(button_fill).min_size(egui::vec2(108.0, HEIGHT)))
 }
 
 fn press(ui: &mut egui::Ui, now: &FrameContext, asks: &mut Asks, action: Action, button: Button<'_>) -> Id {
@@ -94,4 +165,22 @@ fn press(ui: &mut egui::Ui, now: &FrameContext, asks: &mut Asks, action: Action,
         asks.push(Ask::Act(action));
     }
     response.id
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// As in English.
+    const WIDTHS: Widths = [195.0, 50.0, 103.0, 108.0, 108.0, 308.0];
+
+    #[test]
+    fn parts_share_a_row_while_there_is_room() {
+        let ends = |room| rows(&WIDTHS, room).iter().map(|row| row.end).collect::<Vec<_>>();
+        let one_row = WIDTHS.iter().sum::<f32>() + 4.0 * GAP + SPACING;
+        assert_eq!(ends(one_row), [6]);
+        assert_eq!(ends(one_row - 0.5), [5, 6]);
+        assert_eq!(ends(663.0), [4, 6]);
+        assert_eq!(ends(10.0), [1, 2, 3, 4, 5, 6]);
+    }
 }
