@@ -8,6 +8,7 @@ use glam::{DQuat, DVec3};
 
 use crate::body::{Surface, bones, landmarks};
 use crate::cloth::{EdgeMetric, Garment};
+use crate::contact::Bone;
 use crate::geometry::borders::border_loops;
 use crate::geometry::mesh::TriMesh;
 use crate::place::limbs::{Limb, Part, limbs};
@@ -27,17 +28,20 @@ const BENT: [f64; 2] = [0.5, 0.6];
 const GENTLE: f64 = 2.0;
 
 /// `places` (metres, one for each flat corner of `garment`) with sleeves led to the arms of the body. They are
-/// unchanged where the body does not look human, or where the arms run between the edges of the sleeves already.
+/// unchanged where the body does not look human, or where the arms run between the edges of the sleeves already, as legs do between
+/// those of trousers.
 pub fn led(garment: &Garment, surface: &Surface, places: &[Option<DVec3>]) -> Vec<Option<DVec3>> {
     let mut places = places.to_vec();
     let Some(marks) = landmarks::found(&surface.mesh) else { return places };
     let (lower, upper) = surface.bounds();
-    let arms = limbs(&bones::extracted(surface, &marks), upper.y - lower.y);
+    let all = limbs(&bones::extracted(surface, &marks), upper.y - lower.y);
+    let legs: Vec<Bone> =
+        all.iter().filter(|limb| matches!(limb.part, Part::Leg { .. })).map(|limb| limb.bone).collect();
     let cloth =
         TriMesh { positions: vec![DVec3::ZERO; garment.vertex_count], triangles: garment.triangles.clone() };
     let borders = border_loops(&cloth);
     let metric = EdgeMetric::new(garment);
-    for limb in &arms {
+    for limb in &all {
         let Part::Arm { left } = limb.part else { continue };
         let side = if left { "left" } else { "right" };
         let Some(arm) =
@@ -47,7 +51,7 @@ pub fn led(garment: &Garment, surface: &Surface, places: &[Option<DVec3>]) -> Ve
         };
         let mut seen = vec![false; garment.vertex_count];
         for cuff in arm.cuffs(garment, &borders, &places) {
-            if seen[cuff.border[0] as usize] {
+            if seen[cuff.border[0] as usize] || legs.iter().any(|leg| cuff.is_round(leg)) {
                 continue;
             }
             let sources: Vec<(u32, f64)> = cuff.border.iter().map(|&v| (v, 0.0)).collect();
@@ -68,6 +72,21 @@ struct Cuff<'a> {
     points: Vec<DVec3>,
     /// From the shoulder to the middle of the opening, in the frontal plane, metres.
     from: DVec3,
+}
+
+impl Cuff<'_> {
+    /// Whether the opening is that of a leg, as of short trousers, which end beside the arm: `leg` runs between its edges before
+    /// and behind.
+    fn is_round(&self, [hip, knee]: &Bone) -> bool {
+        let middle = self.points.iter().sum::<DVec3>() / self.points.len() as f64;
+        let share = (middle.y - hip.y) / (knee.y - hip.y);
+        let at = hip.lerp(*knee, if share.is_finite() { share.clamp(0.0, 1.0) } else { 0.0 });
+        [false, true].into_iter().all(|is_behind| {
+            let part = self.points.iter().filter(|p| (p.z < at.z) == is_behind);
+            let [low, high] = part.fold([f64::MAX, f64::MIN], |[low, high], p| [low.min(p.x), high.max(p.x)]);
+            (low..high).contains(&at.x)
+        })
+    }
 }
 
 /// An arm, seen from the front.

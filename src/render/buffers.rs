@@ -291,7 +291,32 @@ fn flat_vertices(
             (vertices[v].flat, is_set[v], *corner) = (place, true, v as u32);
         }
     }
+    let first_twin = mesh.positions.len();
+    let is_shared: Vec<bool> =
+        next.iter().enumerate().map(|(v, &n)| v >= first_twin || n != u32::MAX).collect();
+    part_normals(&mut vertices, &triangles, &is_shared);
     (vertices, triangles)
+}
+
+/// Cosine of the angle between the normal of a vertex on a seam and that of one of its sides beyond which the seam is a sharp fold.
+const SHARP: f32 = 0.5;
+
+/// Gives the vertices that `is_shared` by the sides of a seam the normals of their own sides where they are on a sharp fold, as of a
+/// turn-up: those of both sides cancel each other out there.
+fn part_normals(vertices: &mut [Vertex], triangles: &[[u32; 3]], is_shared: &[bool]) {
+    let mut own = vec![Vec3::ZERO; vertices.len()];
+    for t in triangles {
+        let [a, b, c] = t.map(|v| vertices[v as usize].position);
+        let n = (b - a).cross(c - a);
+        t.iter().filter(|&&v| is_shared[v as usize]).for_each(|&v| own[v as usize] += n);
+    }
+    for (vertex, own) in vertices.iter_mut().zip(own) {
+        if let Some(own) = own.try_normalize()
+            && own.dot(vertex.normal) < SHARP
+        {
+            vertex.normal = own;
+        }
+    }
 }
 
 fn area_weighted_normals(mesh: &Mesh) -> Vec<Vec3> {
@@ -337,6 +362,34 @@ mod tests {
         let flat: Vec<Vec2> = triangles.iter().flatten().map(|&v| vertices[v as usize].flat).collect();
         assert_eq!(flat, mesh.flat.concat());
         assert!(vertices[4].position == Vec3::X && vertices[5].position == Vec3::ONE);
+    }
+
+    /// Two triangles that share an edge; the second is turned by `angle` degrees out of the plane of the first.
+    fn hinged(angle: f32) -> Mesh {
+        let (sin, cos) = angle.to_radians().sin_cos();
+        let [a, b, c] = [Vec2::ZERO, Vec2::X, Vec2::Y];
+        Mesh {
+            positions: vec![Vec3::ZERO, Vec3::X, Vec3::new(0.5, 1.0, 0.0), Vec3::new(0.5, -cos, sin)],
+            triangles: vec![[0, 1, 2], [1, 0, 3]],
+            flat: vec![[a, b, c], [b + Vec2::X, a + Vec2::X, c]],
+            ..Mesh::default()
+        }
+    }
+
+    #[test]
+    fn each_side_of_a_sharp_fold_at_a_seam_has_its_own_normals() {
+        for (angle, is_parted) in [(30.0, false), (170.0, true)] {
+            let mesh = hinged(angle);
+            let (vertices, triangles) = flat_vertices(&mesh, vertices(&mesh), mesh.triangles.clone());
+            for t in &triangles {
+                let [a, b, c] = t.map(|v| vertices[v as usize].position);
+                let own = (b - a).cross(c - a).normalize();
+                for &v in &t[..2] {
+                    let close = vertices[v as usize].normal.dot(own) > 0.999;
+                    assert_eq!(close, is_parted, "{angle} degrees");
+                }
+            }
+        }
     }
 
     #[test]

@@ -102,3 +102,12 @@ fn what_the_arms_run_through_and_what_has_no_sleeves_stays_to_the_last_bit() {
         assert!(led(&garment, &surface, &places) == places, "{kind:?}");
     }
 }
+
+/// Shorts end beside the arms where these hang down.
+#[test]
+fn legs_of_shorts_are_not_led_to_the_arms() {
+    for number in 0..4 {
+        let (garment, places, surface) = drafted(Kind::Shorts, number, NamedPose::A);
+        assert!(led(&garment, &surface, &places) == places, "design {number}");
+    }
+}
