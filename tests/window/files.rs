@@ -37,6 +37,9 @@ fn enter_takes_the_path_and_a_file_that_is_there_is_asked_about() {
         }
         window.get_by_role(egui::accesskit::Role::TextInput).focus();
         window.run_steps(2);
+        // A name is proposed.
+        window.key_press_modifiers(Modifiers::COMMAND, Key::A);
+        window.run_steps(1);
         window.get_by_role(egui::accesskit::Role::TextInput).type_text(&path.display().to_string());
         window.run_steps(2);
         key(&mut window, Modifiers::NONE, Key::Enter);
