@@ -192,6 +192,12 @@ pub trait AsValue {
     fn as_value(&self) -> Value;
 }
 
+impl<T: AsValue + ?Sized> AsValue for &T {
+    fn as_value(&self) -> Value {
+        (**self).as_value()
+    }
+}
+
 impl AsValue for Value {
     fn as_value(&self) -> Value {
         self.clone()
@@ -257,16 +263,12 @@ macro_rules! words {
             vec![$((stringify!($name), $crate::geometry::words::words!(@value $name $($value)?))),*],
         )
     };
-    (@value $name:ident) => {{
-        #[allow(unused_imports, reason = "where the trait is known already")]
-        use $crate::geometry::words::AsValue as _;
-        $name.as_value()
-    }};
-    (@value $name:ident $value:expr) => {{
-        #[allow(unused_imports, reason = "where the trait is known already")]
-        use $crate::geometry::words::AsValue as _;
-        $value.as_value()
-    }};
+    (@value $name:ident) => {
+        $crate::geometry::words::AsValue::as_value(&$name)
+    };
+    (@value $name:ident $value:expr) => {
+        $crate::geometry::words::AsValue::as_value(&$value)
+    };
 }
 pub(crate) use words;
 

@@ -4,6 +4,7 @@ use std::sync::Arc;
 use std::time::Duration;
 
 use glam::{UVec2, Vec2, Vec3};
+use image::RgbaImage;
 use toile::cloth::{Fabric, FabricLook, Weave};
 use toile::render::{
     BODY, CLOTH_BACK, CLOTH_FRONT, Camera, Fineness, Ground, Harmonics, Label, Light, Look, MEAN_LIGHT, Mesh,
@@ -398,6 +399,16 @@ pub(crate) fn fine(
     (picture.finish(), tiles)
 }
 
+/// Asserts that a picture drawn tile by tile is that drawn in one piece.
+pub fn are_alike(name: &str, whole: &RgbaImage, tiled: &RgbaImage) {
+    let apart: Vec<u8> = whole.iter().zip(tiled.iter()).map(|(a, b)| a.abs_diff(*b)).collect();
+    // A place at the very border of a texel's shadow may fall on its other side, as positions are interpolated from another corner:
+    // that changes one of six readings, in one of the samples of a pixel.
+    let at_shadows = apart.iter().filter(|d| **d > 1).count();
+    assert!(at_shadows * 100_000 <= apart.len(), "{name}: {at_shadows} of {}", apart.len());
+    assert!(apart.iter().all(|d| *d <= 2), "{name}: {:?} of 255", apart.iter().max());
+}
+
 #[test]
 fn a_picture_in_tiles_is_the_picture_in_one_piece() {
     let Some(mut studio) = studio() else { return };
@@ -419,12 +430,7 @@ fn a_picture_in_tiles_is_the_picture_in_one_piece() {
         let (tiled, many) = fine(&mut studio, &scene, camera, &look, (size, Fineness { times, tile: 128 }));
         assert!(one == 1 && many > 10, "{name}: {one} and {many} tiles");
         assert_eq!(whole.dimensions(), (size.x, size.y));
-        let apart: Vec<u8> = whole.iter().zip(tiled.iter()).map(|(a, b)| a.abs_diff(*b)).collect();
-        // A place at the very border of a texel's shadow may fall on its other side, as positions are interpolated from another
-        // corner: that changes one of six readings, in one of the samples of a pixel.
-        let at_shadows = apart.iter().filter(|d| **d > 1).count();
-        assert!(at_shadows * 100_000 <= apart.len(), "{name}: {at_shadows} of {}", apart.len());
-        assert!(apart.iter().all(|d| *d <= 2), "{name}: {:?} of 255", apart.iter().max());
+        are_alike(name, &whole, &tiled);
         assert_eq!(whole.pixels().any(|p| p[3] < 255), look.cut_out, "{name}");
     }
 }

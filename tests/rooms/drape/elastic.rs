@@ -6,8 +6,10 @@ use std::f64::consts::TAU;
 use glam::{DVec2, DVec3};
 use toile::cloth::{Fabric, Garment, build};
 use toile::drape::forces::bands::Bands;
-use toile::drape::{Drape, DrapeSettings, Elastic, Integrator, Method, Scene, Sheet, State};
+use toile::drape::{Drape, Elastic, Method, Scene, Sheet, State};
 use toile::pattern::{self, EdgeRef, Pattern, Piece, Seam, Trims};
+
+use super::moves;
 
 const WIDTH: f64 = 0.2;
 const HEIGHT: f64 = 0.12;
@@ -49,16 +51,7 @@ fn rested(garment: &Garment, method: Method, seconds: f64) -> Vec<DVec3> {
         x[corner.vertex as usize] = DVec3::new(radius * cos, corner.uv.y, -radius * sin);
     }
     let scene = Scene { sheet, elastic, mass, pinned, gravity: DVec3::ZERO, damping: 6.0, collider: None };
-    let settings = DrapeSettings {
-        method: Some(method),
-        strain: 0.01,
-        thickness: 0.001,
-        friction: 0.3,
-        self_collision: false,
-        integrator: Integrator::Euler,
-        stiffness: 1000.0,
-        accuracy: 1e-3,
-    };
+    let settings = moves::settings_without_contact(method, 1e-3);
     // Without weight small steps are as long as a step.
     let rate = if method == Method::Implicit { 60.0 } else { 1500.0 };
     let mut drape = Drape::new(scene, State::at_rest(x), settings, 1.0 / rate).expect("room");

@@ -7,15 +7,14 @@ use glam::{DVec2, DVec3};
 use toile::body::Surface;
 use toile::cloth::{ClothState, Fabric, Garment, Skips, build};
 use toile::drape::forces::folds::Folds;
-use toile::drape::{
-    Drape, DrapeSettings, DrapedGarment, DrapedSettings, Elastic, Integrator, Method, Scene, State,
-};
+use toile::drape::{Drape, DrapedGarment, DrapedSettings, Elastic, Method, Scene, State};
 use toile::geometry::crossings::self_crossings;
 use toile::geometry::mesh::TriMesh;
 use toile::geometry::shapes::cylinder;
 use toile::pattern::{Edge, Fold, InternalLine, Pattern, Piece, Trims};
 
 use super::meshes::{Flat, Kind, flat, scene};
+use super::moves;
 
 const METHODS: [Method; 2] = [Method::SmallSteps, Method::Implicit];
 
@@ -60,16 +59,7 @@ fn a_single_crease_comes_to_rest_at_its_angle() {
     for (kind, method) in kinds.into_iter().flat_map(|kind| METHODS.map(|method| (kind, method))) {
         for degrees in [30.0f64, -90.0, 150.0] {
             let (strip, scene) = creased(kind, degrees.to_radians());
-            let settings = DrapeSettings {
-                method: Some(method),
-                strain: 0.01,
-                thickness: 0.001,
-                friction: 0.3,
-                self_collision: false,
-                integrator: Integrator::Euler,
-                stiffness: 1000.0,
-                accuracy: 1e-4,
-            };
+            let settings = moves::settings_without_contact(method, 1e-4);
             let state = State::at_rest(strip.placed(|p| p.extend(0.0)));
             // Without weight small steps are as long as a step.
             let (h, steps) = if method == Method::Implicit { (1.0 / 60.0, 180) } else { (1.0 / 900.0, 2700) };

@@ -24,6 +24,11 @@ pub fn settings(method: Method) -> DrapeSettings {
     }
 }
 
+/// Settings for cloth that bends and stretches and touches nothing.
+pub fn settings_without_contact(method: Method, accuracy: f64) -> DrapeSettings {
+    DrapeSettings { thickness: 1e-3, integrator: Integrator::Euler, accuracy, ..settings(method) }
+}
+
 fn soft() -> Fabric {
     Fabric::isotropic(1000.0, 0.3, 1e-5, 0.2)
 }

@@ -5,10 +5,11 @@ use toile::cloth::{Fabric, Garment, build};
 use toile::drape::forces::folds::Folds;
 use toile::drape::solver::newton::Newton;
 use toile::drape::solver::settle::{SettleSettings, settle};
-use toile::drape::{Contacts, Drape, DrapeSettings, Elastic, Integrator, Method, Scene, Sheet, State};
+use toile::drape::{Contacts, Drape, Elastic, Method, Scene, Sheet, State};
 use toile::pattern::{Edge, InternalLine, Pattern, Piece, Trims, Wrinkle};
 
 use super::folds::hanging;
+use super::moves;
 
 fn wrinkled(from: (f64, f64), to: (f64, f64), wrinkle: Wrinkle) -> InternalLine {
     let trims = Trims { wrinkle: Some(wrinkle), ..Trims::default() };
@@ -88,16 +89,7 @@ fn bending_alone_brings_cloth_into_the_profile_in_steps() {
         WRINKLES.into_iter().flat_map(|wrinkle| [(wrinkle, Method::SmallSteps), (wrinkle, Method::Implicit)])
     {
         let (places, scene) = strip(wrinkle);
-        let settings = DrapeSettings {
-            method: Some(method),
-            strain: 0.01,
-            thickness: 0.001,
-            friction: 0.3,
-            self_collision: false,
-            integrator: Integrator::Euler,
-            stiffness: 1000.0,
-            accuracy: 1e-4,
-        };
+        let settings = moves::settings_without_contact(method, 1e-4);
         let state = State::at_rest(places.iter().map(|p| p.extend(0.0)).collect());
         // Without weight small steps are as long as a step.
         let (h, steps) = if method == Method::Implicit { (1.0 / 60.0, 180) } else { (1.0 / 900.0, 2700) };

@@ -169,6 +169,34 @@ fn a_corner_of_the_allowance_is_chosen_in_the_side_panel_and_undone() {
     assert_eq!(chosen(&window), AllowanceCorner::Mitre);
 }
 
+/// Types `text` over what stands in the field with this label.
+fn enter(window: &mut Window, label: &str, text: &str) {
+    use egui::accesskit::Role;
+    window.get_by_role_and_label(Role::TextInput, label).focus();
+    window.run_steps(2);
+    key(window, Modifiers::COMMAND, Key::A);
+    window.get_by_role_and_label(Role::TextInput, label).type_text(text);
+    window.run_steps(2);
+    press(window, Key::Enter);
+}
+
+/// Chooses `entry` of the pattern menu, where the side panel has a box of the same name.
+fn choose_beside_box(window: &mut Window, entry: &str) {
+    crate::act(window, "Pattern");
+    let is_box = |role| role == egui::accesskit::Role::CheckBox;
+    for is_in_view in [false, true] {
+        let mut entries = window.get_all_by_label(entry).filter(|node| !is_box(node.accesskit_node().role()));
+        let entry = entries.next().expect("an entry");
+        if is_in_view {
+            entry.click();
+        } else {
+            entry.scroll_to_me();
+        }
+        drop(entries);
+        window.run_steps(4);
+    }
+}
+
 #[test]
 fn piping_is_sewn_in_changed_and_taken_out_in_the_side_panel_and_undone() {
     use egui::accesskit::Role;
@@ -183,12 +211,7 @@ fn piping_is_sewn_in_changed_and_taken_out_in_the_side_panel_and_undone() {
     // Of its radius and its colour.
     assert!(window.query_by_label("Colour of the piping").is_some());
     let radius = |window: &mut Window, text: &str| {
-        window.get_by_role_and_label(Role::TextInput, "Radius").focus();
-        window.run_steps(2);
-        key(window, Modifiers::COMMAND, Key::A);
-        window.get_by_role_and_label(Role::TextInput, "Radius").type_text(text);
-        window.run_steps(2);
-        press(window, Key::Enter);
+        enter(window, "Radius", text);
         piping(window).expect("piping").radius
     };
     assert!((radius(&mut window, "2.5 mm") - 0.0025).abs() < 1e-12);
@@ -209,13 +232,7 @@ fn piping_is_in_the_menu_of_the_pattern() {
     press(&mut window, Key::A);
     let line = place(&window, "A, line 1");
     click(&mut window, line);
-    crate::act(&mut window, "Pattern");
-    // The side panel has a box of that name.
-    let is_box = |role| role == egui::accesskit::Role::CheckBox;
-    let mut entries = window.get_all_by_label("Piping").filter(|node| !is_box(node.accesskit_node().role()));
-    entries.next().expect("an entry").click();
-    drop(entries);
-    window.run_steps(4);
+    choose_beside_box(&mut window, "Piping");
     let trims = |window: &Window| piece(&pattern(window), "A").lines[0].edges[0].trims;
     assert_eq!(trims(&window).piping, Some(Piping::USUAL));
     key(&mut window, Modifiers::COMMAND, Key::Z);
@@ -234,12 +251,7 @@ fn a_wrinkle_is_set_changed_and_smoothed_out_in_the_side_panel_and_undone() {
     window.run_steps(4);
     assert_eq!(wrinkle(&window), Some(Wrinkle::USUAL));
     let typed = |window: &mut Window, label: &str, text: &str| {
-        window.get_by_role_and_label(Role::TextInput, label).focus();
-        window.run_steps(2);
-        key(window, Modifiers::COMMAND, Key::A);
-        window.get_by_role_and_label(Role::TextInput, label).type_text(text);
-        window.run_steps(2);
-        press(window, Key::Enter);
+        enter(window, label, text);
         let Wrinkle { width, height } = wrinkle(window).expect("a wrinkle");
         [width, height].map(|metres| (metres * 1e6).round() / 1e3)
     };
@@ -262,21 +274,7 @@ fn a_wrinkle_is_in_the_menu_for_lines_inside_pieces() {
     press(&mut window, Key::A);
     let line = place(&window, "A, line 1");
     click(&mut window, line);
-    crate::act(&mut window, "Pattern");
-    // The side panel has a box of that name.
-    let is_box = |role| role == egui::accesskit::Role::CheckBox;
-    for is_in_view in [false, true] {
-        let mut entries =
-            window.get_all_by_label("Wrinkle").filter(|node| !is_box(node.accesskit_node().role()));
-        let entry = entries.next().expect("an entry");
-        if is_in_view {
-            entry.click();
-        } else {
-            entry.scroll_to_me();
-        }
-        drop(entries);
-        window.run_steps(4);
-    }
+    choose_beside_box(&mut window, "Wrinkle");
     let trims = |window: &Window| piece(&pattern(window), "A").lines[0].edges[0].trims;
     assert_eq!(trims(&window).wrinkle, Some(Wrinkle::USUAL));
     key(&mut window, Modifiers::COMMAND, Key::Z);
