@@ -56,7 +56,8 @@ impl fmt::Display for Unit {
 }
 
 /// Error: a text that names no unit.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("{}", self.words())]
 pub struct UnknownUnit(pub String);
 
 impl UnknownUnit {
@@ -66,14 +67,6 @@ impl UnknownUnit {
         words!("\"{text}\" is no unit of length; m, dm, cm, mm and in are known", text)
     }
 }
-
-impl fmt::Display for UnknownUnit {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        self.words().fmt(f)
-    }
-}
-
-impl std::error::Error for UnknownUnit {}
 
 impl FromStr for Unit {
     type Err = UnknownUnit;

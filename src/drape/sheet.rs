@@ -28,7 +28,8 @@ pub struct Sheet {
 }
 
 /// Why triangles do not form a sheet.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("{}", self.words())]
 pub enum SheetError {
     /// There is no triangle, or the number of rest triangles differs.
     Empty,
@@ -51,14 +52,6 @@ impl SheetError {
         }
     }
 }
-
-impl std::fmt::Display for SheetError {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        f.write_str(&self.words())
-    }
-}
-
-impl std::error::Error for SheetError {}
 
 impl Sheet {
     /// A sheet over vertices `0..vertices`. Rest triangles given clockwise are mirrored in x.

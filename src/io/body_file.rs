@@ -2,7 +2,6 @@
 
 use std::cell::RefCell;
 use std::collections::BTreeMap;
-use std::fmt;
 use std::path::{Path, PathBuf};
 
 use crate::geometry::mesh::TriMesh;
@@ -12,7 +11,8 @@ use crate::io::obj::{self, ObjError};
 use crate::io::words::readable_words;
 
 /// Why a file cannot be read as a body.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("{}", self.words())]
 pub enum BodyFileError {
     /// What is wrong, and where.
     File(Words),
@@ -28,14 +28,6 @@ impl BodyFileError {
         }
     }
 }
-
-impl fmt::Display for BodyFileError {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        self.words().fmt(f)
-    }
-}
-
-impl std::error::Error for BodyFileError {}
 
 impl From<ObjError> for BodyFileError {
     fn from(error: ObjError) -> Self {

@@ -4,8 +4,6 @@
 //! CS-01-11). The reader is our own: the format is a page long, and the existing crate (`bvh_anim`) has had no release since 2020
 //! and does not name the line of every fault.
 
-use std::fmt;
-
 use glam::DVec3;
 
 use crate::body::pose::motion::{Channel, Clip, ClipJoint};
@@ -27,7 +25,8 @@ const LARGEST: f64 = 1e7;
 const FRAME_TIME: std::ops::RangeInclusive<f64> = 1e-4..=100.0;
 
 /// Why a file cannot be read as a motion.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("{}", self.words())]
 pub enum BvhError {
     /// A fault in one line.
     Line {
@@ -49,14 +48,6 @@ impl BvhError {
         }
     }
 }
-
-impl fmt::Display for BvhError {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        self.words().fmt(f)
-    }
-}
-
-impl std::error::Error for BvhError {}
 
 /// Whether `bytes` begin like a BVH file.
 pub fn is_bvh(bytes: &[u8]) -> bool {

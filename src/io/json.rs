@@ -29,7 +29,8 @@ pub enum Node {
 }
 
 /// What is wrong with a JSON text.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("{}", self.words())]
 pub enum JsonError {
     /// The text is no JSON.
     Syntax {
@@ -60,14 +61,6 @@ impl JsonError {
         }
     }
 }
-
-impl fmt::Display for JsonError {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        self.words().fmt(f)
-    }
-}
-
-impl std::error::Error for JsonError {}
 
 /// Parses a whole JSON text in UTF-8.
 pub fn parse(bytes: &[u8]) -> Result<Node, JsonError> {

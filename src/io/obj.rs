@@ -4,7 +4,7 @@
 //! fault, and rewrites `v` and `f` statements in their plainest form, which the crate tobj then reads. Groups, texture
 //! coordinates, normals and materials are not read; files that the text names are never opened.
 
-use std::fmt::{self, Write as _};
+use std::fmt::Write as _;
 
 use glam::DVec3;
 
@@ -23,7 +23,8 @@ use crate::pattern::Pattern;
 const EAR_TESTS: usize = 100_000_000;
 
 /// Why a file is not a usable mesh.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("{}", self.words())]
 pub enum ObjError {
     /// A fault in one line.
     Line {
@@ -48,14 +49,6 @@ impl ObjError {
         }
     }
 }
-
-impl fmt::Display for ObjError {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        self.words().fmt(f)
-    }
-}
-
-impl std::error::Error for ObjError {}
 
 /// Counts of what was left out or corrected while reading.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]

@@ -1,7 +1,5 @@
 //! The result of reading a pattern file: the pattern, or an error.
 
-use std::fmt;
-
 use crate::geometry::words::Words;
 use crate::io::garmentcode::GarmentCodeError;
 use crate::io::scale::ScaleQuestion;
@@ -17,7 +15,8 @@ pub struct ReadPattern {
 }
 
 /// Why a file cannot be read as a pattern.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[error("{}", self.words())]
 pub enum PatternFileError {
     /// A part of the file is faulty.
     Bad {
@@ -48,14 +47,6 @@ impl PatternFileError {
         }
     }
 }
-
-impl fmt::Display for PatternFileError {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        self.words().fmt(f)
-    }
-}
-
-impl std::error::Error for PatternFileError {}
 
 impl From<GarmentCodeError> for PatternFileError {
     fn from(error: GarmentCodeError) -> Self {

@@ -1,7 +1,5 @@
 //! Reads size tables (CSV): a header that names measurements of the mannequin, then a row for each size, its name first.
 
-use std::fmt;
-
 use crate::body::Unit;
 use crate::body::mannequin::Measurements;
 use crate::geometry::words::{Value, Words, within_quotes, words};
@@ -15,7 +13,8 @@ const MOST_SIZES: usize = 1000;
 const LONGEST: f64 = 10.0;
 
 /// Why a file cannot be read as a size table.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("{}", self.words())]
 pub enum SizesError {
     /// The file as a whole is faulty.
     File(Words),
@@ -52,14 +51,6 @@ impl SizesError {
         }
     }
 }
-
-impl fmt::Display for SizesError {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        self.words().fmt(f)
-    }
-}
-
-impl std::error::Error for SizesError {}
 
 /// A size of the table: a name and its body measurements.
 #[derive(Clone, Debug, PartialEq)]

@@ -38,7 +38,8 @@ impl Default for Order {
 }
 
 /// Why there is no marker.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[error("{}", self.words())]
 pub enum MarkerError {
     /// The pattern has no pieces.
     Empty,
@@ -86,14 +87,6 @@ impl MarkerError {
         }
     }
 }
-
-impl std::fmt::Display for MarkerError {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        f.write_str(&self.words())
-    }
-}
-
-impl std::error::Error for MarkerError {}
 
 /// The garments of an order by words: one of each of `sizes`, or for `quantities` such as "M=2" that many; "3" alone means the
 /// base size, and so does nothing at all.

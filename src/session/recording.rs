@@ -4,7 +4,6 @@
 //! gesture and whenever the cloth comes to rest, but for cloth that a graphics card has moved.
 
 use std::collections::VecDeque;
-use std::fmt;
 use std::fs::File;
 use std::io::{BufWriter, Write};
 
@@ -248,7 +247,8 @@ pub enum RecordedEvent {
 }
 
 /// Why a text is not a recording.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("{}", self.words())]
 pub struct RecordingError {
     /// Line number, from 1.
     pub line: usize,
@@ -262,14 +262,6 @@ impl RecordingError {
         line(self.line).and(": ", self.words.clone())
     }
 }
-
-impl fmt::Display for RecordingError {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        self.words().fmt(f)
-    }
-}
-
-impl std::error::Error for RecordingError {}
 
 impl Recording {
     /// Reads JSON lines. A last line that was cut off (a crash while writing) is an error like any other.

@@ -1,7 +1,6 @@
 //! Replays a recording on the caller's thread, as fast as it can, and compares hashes. Stops at the first difference.
 
 use std::collections::{BTreeMap, VecDeque};
-use std::fmt;
 
 use crate::geometry::words::{Words, words};
 use crate::session::command::Command;
@@ -10,7 +9,8 @@ use crate::session::session::{GestureId, Session};
 use crate::sim::{Runner, Simulation};
 
 /// The first difference between a replay and its recording.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("{}", self.words())]
 pub struct Divergence {
     /// Ticks executed before.
     pub tick: u64,
@@ -27,14 +27,6 @@ impl Divergence {
         words!("diverged at tick {tick}, after command {seq}: {words}", tick, seq, words)
     }
 }
-
-impl fmt::Display for Divergence {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        self.words().fmt(f)
-    }
-}
-
-impl std::error::Error for Divergence {}
 
 /// A replay in progress.
 #[derive(Debug)]

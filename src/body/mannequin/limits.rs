@@ -5,7 +5,8 @@ use super::measurements::Measurements;
 use crate::geometry::words::{Words, decimal, words};
 
 /// Error: a measurement that no body has.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[error("{}", self.words())]
 pub struct OutOfRange {
     /// Name of the measurement.
     pub name: &'static str,
@@ -33,14 +34,6 @@ impl OutOfRange {
         )
     }
 }
-
-impl std::fmt::Display for OutOfRange {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        f.write_str(&self.words())
-    }
-}
-
-impl std::error::Error for OutOfRange {}
 
 impl Measurements {
     /// Checks that a figure can have these measurements: each against the default scaled to the height, below 1.40 m against

@@ -61,7 +61,8 @@ pub struct Mannequin {
 }
 
 /// Error: there is no such mannequin.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[error("{}", self.words())]
 pub enum MannequinError {
     /// A measurement that no body has.
     OutOfRange(OutOfRange),
@@ -80,14 +81,6 @@ impl MannequinError {
         }
     }
 }
-
-impl std::fmt::Display for MannequinError {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        f.write_str(&self.words())
-    }
-}
-
-impl std::error::Error for MannequinError {}
 
 impl From<OutOfRange> for MannequinError {
     fn from(error: OutOfRange) -> Self {

@@ -3,7 +3,6 @@
 //! The two dialects differ in `curvature`: the older one has only quadratic Béziers, written as a plain pair.
 
 use std::collections::{BTreeMap, BTreeSet};
-use std::fmt;
 
 use glam::{DQuat, DVec2, DVec3, EulerRot};
 
@@ -22,7 +21,8 @@ pub(super) const LARGEST_CURVATURE: f64 = 100.0;
 const LARGEST_ANGLE: f64 = 720.0;
 
 /// Why a file cannot be read as a pattern.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("{}", self.words())]
 pub enum GarmentCodeError {
     /// Not JSON, or not the JSON of a pattern.
     Json(JsonError),
@@ -44,14 +44,6 @@ impl GarmentCodeError {
         }
     }
 }
-
-impl fmt::Display for GarmentCodeError {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        self.words().fmt(f)
-    }
-}
-
-impl std::error::Error for GarmentCodeError {}
 
 impl From<JsonError> for GarmentCodeError {
     fn from(error: JsonError) -> Self {

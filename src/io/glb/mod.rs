@@ -7,8 +7,6 @@
 pub mod animated;
 mod images;
 
-use std::fmt;
-
 use glam::{DVec2, DVec3};
 use gltf_json::accessor::{ComponentType, GenericComponentType, Type};
 use gltf_json::buffer::{Buffer, Target, View};
@@ -25,7 +23,8 @@ use crate::io::dressed::{Dressed, PieceArrays, TrimArrays};
 use crate::io::materials::{ClothMaterial, ClothTextures, Colours, ROUGHNESS, Textures};
 
 /// Why no file was written.
-#[derive(Debug)]
+#[derive(Debug, thiserror::Error)]
+#[error("{}", self.words())]
 pub enum GlbError {
     /// There is neither cloth nor body to write.
     Empty,
@@ -45,14 +44,6 @@ impl GlbError {
         }
     }
 }
-
-impl fmt::Display for GlbError {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        self.words().fmt(f)
-    }
-}
-
-impl std::error::Error for GlbError {}
 
 impl From<gltf_json::Error> for GlbError {
     fn from(error: gltf_json::Error) -> Self {

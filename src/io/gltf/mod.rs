@@ -6,8 +6,6 @@
 mod animate;
 mod numbers;
 
-use std::fmt;
-
 use base64::Engine as _;
 use glam::{DAffine3, DMat4, DQuat, DVec3};
 use gltf::mesh::{Mode, Semantic};
@@ -26,7 +24,8 @@ const MOST_JOINT_SETS: u32 = 4;
 const INLINE: &str = "data:";
 
 /// Why a file cannot be read as a body.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("{}", self.words())]
 pub enum GltfError {
     /// What is wrong, and where: "mesh 2, primitive 0: ...".
     File(Words),
@@ -43,14 +42,6 @@ impl GltfError {
         }
     }
 }
-
-impl fmt::Display for GltfError {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        self.words().fmt(f)
-    }
-}
-
-impl std::error::Error for GltfError {}
 
 fn fault(words: Words) -> GltfError {
     GltfError::File(words)

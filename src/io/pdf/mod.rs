@@ -51,7 +51,8 @@ const LONGEST_CLOTH: f64 = 5000.0;
 const POINTS: f64 = 72.0 / 25.4;
 
 /// Why there is no PDF.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("{}", self.words())]
 pub enum PdfError {
     /// The pattern has no pieces.
     Empty,
@@ -90,14 +91,6 @@ impl PdfError {
         }
     }
 }
-
-impl std::fmt::Display for PdfError {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        f.write_str(&self.words())
-    }
-}
-
-impl std::error::Error for PdfError {}
 
 const MOST_PAGES: usize = 2000;
 

@@ -10,7 +10,6 @@ mod package;
 mod prim;
 mod shading;
 
-use std::fmt;
 use std::sync::Arc;
 
 use glam::DVec3;
@@ -35,7 +34,8 @@ const IN_PACKAGE: &str = "garment.usda";
 const COORDINATES: [&str; 2] = ["st", "st1"];
 
 /// Why no scene was written.
-#[derive(Debug)]
+#[derive(Debug, thiserror::Error)]
+#[error("{}", self.words())]
 pub enum UsdError {
     /// There is neither cloth nor body to write.
     Empty,
@@ -55,14 +55,6 @@ impl UsdError {
         }
     }
 }
-
-impl fmt::Display for UsdError {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        self.words().fmt(f)
-    }
-}
-
-impl std::error::Error for UsdError {}
 
 /// How a scene is written.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -215,12 +207,13 @@ impl<'a> Builder<'a> {
         }
         let state_of =
             |frame: &Frame| ClothState { positions: frame.cloth.clone(), mapped: state.mapped.clone() };
+        let states: Vec<ClothState> = frames.iter().map(state_of).collect();
         for (part, material) in dressed.trims(self.colours) {
-            let trim = |(frame, normals): (&Frame, &Vec<DVec3>)| {
-                let moved = TrimArrays::new(&Dressed { state: &state_of(frame), ..*dressed }, part, normals);
+            let trim = |(state, normals): (&ClothState, &Vec<DVec3>)| {
+                let moved = TrimArrays::new(&Dressed { state, ..*dressed }, part, normals);
                 (moved.positions, moved.normals)
             };
-            let moved: Vec<MovedMesh> = frames.iter().zip(&moved).map(trim).collect();
+            let moved: Vec<MovedMesh> = states.iter().zip(&moved).map(trim).collect();
             self.trim(&TrimArrays::new(dressed, part, &normals), &material, &moved);
         }
     }
