@@ -27,7 +27,7 @@ pub fn export(arguments: &Export) -> Result<(), Failure> {
     }
     if of_pattern.is_some() && (arguments.textures.is_asked() || !arguments.cloth.is_empty()) {
         let words = format!(
-            "--textures, --no-trims, fabrics, colours and images are of dressed cloth, as {}",
+            "--textures, --atlas, --no-trims, fabrics, colours and images are of dressed cloth, as {}",
             any_of(worn::ENDINGS)
         );
         return Err(Failure::Usage(words));

@@ -23,7 +23,7 @@ pub fn repose(arguments: &Repose) -> Result<(), Failure> {
         return Err(Failure::Usage("--usd is of frames: give --sequence or --motion".to_owned()));
     }
     if arguments.textures.is_asked() {
-        let words = "--textures and --no-trims are of frames: give --sequence or --motion";
+        let words = "--textures, --atlas and --no-trims are of frames: give --sequence or --motion";
         return Err(Failure::Usage(words.to_owned()));
     }
     let start = Begun::now();

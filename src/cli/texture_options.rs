@@ -13,9 +13,9 @@ pub struct TextureOptions {
     #[arg(long, value_name = "PIXELS", value_parser = side)]
     pub textures: Option<u32>,
     /// Where the pieces are in the textures: pattern (all in one as they lie on the table; packed where they cover each other),
-    /// packed (all in one, as large as fits) or pieces (each fills one of its own)
-    #[arg(long, value_name = "pattern|packed|pieces", default_value = "pattern")]
-    pub atlas: AtlasLayout,
+    /// packed (all in one, as large as fits) or pieces (each fills one of its own); if left out, pattern
+    #[arg(long, value_name = "pattern|packed|pieces")]
+    pub atlas: Option<AtlasLayout>,
     /// Leaves buttons, piping, stitches, zips and the layers of hems out: the cloth alone
     #[arg(long)]
     pub no_trims: bool,
@@ -24,13 +24,13 @@ pub struct TextureOptions {
 impl TextureOptions {
     /// Whether any of them is given that would do nothing elsewhere.
     pub fn is_asked(&self) -> bool {
-        self.textures.is_some() || self.no_trims
+        self.textures.is_some() || self.atlas.is_some() || self.no_trims
     }
 
     /// What they ask for; textures have `usual` pixels each way where none are given.
     pub fn worn(&self, usual: u32) -> WornOptions {
         let side = self.textures.unwrap_or(usual);
-        WornOptions { side, layout: self.atlas, trims: !self.no_trims }
+        WornOptions { side, layout: self.atlas.unwrap_or_default(), trims: !self.no_trims }
     }
 }
 

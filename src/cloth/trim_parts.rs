@@ -80,6 +80,8 @@ pub struct TrimPart {
     /// Their colour.
     pub paint: Paint,
     items: Vec<Item>,
+    /// Number of its vertices.
+    vertices: usize,
 }
 
 /// The trims of a garment as parts, in the order of their kinds and colours.
@@ -197,15 +199,21 @@ impl TrimParts {
                 put(TrimKind::Hem, Paint::Inside(*piece), Item::Hem(run.to_vec()));
             }
         }
-        let parts = items.into_iter().map(|((kind, paint), items)| TrimPart { kind, paint, items });
-        let mut parts: Vec<TrimPart> = parts.collect();
-        parts.retain(|part| part.vertices(garment, state) > 0);
+        // How many vertices there are does not depend on the normals.
+        let normals = vec![DVec3::Z; garment.vertex_count];
+        let counted = |((kind, paint), items)| {
+            let part = TrimPart { kind, paint, items, vertices: 0 };
+            let vertices = part.solid(garment, state, &normals).positions.len();
+            TrimPart { vertices, ..part }
+        };
+        let mut parts: Vec<TrimPart> = items.into_iter().map(counted).collect();
+        parts.retain(|part| part.vertices > 0);
         Self { parts, left_out }
     }
 
-    /// Number of vertices of all parts, in the state of the cloth for which they were made.
-    pub fn vertices(&self, garment: &Garment, state: &ClothState) -> usize {
-        self.parts.iter().map(|part| part.vertices(garment, state)).sum()
+    /// Number of vertices of all parts.
+    pub fn vertices(&self) -> usize {
+        self.parts.iter().map(|part| part.vertices).sum()
     }
 }
 
@@ -230,11 +238,6 @@ impl TrimPart {
         }
         solid.colours.clear();
         solid
-    }
-
-    fn vertices(&self, garment: &Garment, state: &ClothState) -> usize {
-        let normals = vec![DVec3::Z; garment.vertex_count];
-        self.solid(garment, state, &normals).positions.len()
     }
 }
 

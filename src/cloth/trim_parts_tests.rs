@@ -75,7 +75,7 @@ fn too_many_stitches_have_fewer_sides_and_then_rows_are_left_out() {
     let hung = hung(&pattern, |p| p);
     let vertices = |most: usize| {
         let all = parts(&pattern, &hung, most);
-        (all.vertices(&hung.0, &hung.1), all.left_out)
+        (all.vertices(), all.left_out)
     };
     let (round, _) = vertices(usize::MAX);
     assert_eq!(vertices(round), (round, 0));

@@ -48,7 +48,7 @@ pub fn bends(piece: &Piece, mesh: &PieceMesh) -> Vec<([u32; 2], Bend)> {
     let adjacency = Adjacency::new(mesh.points.len(), &mesh.triangles);
     let mut found = Vec::new();
     for e in 0..adjacency.edges.len() as u32 {
-        let Some(corners) = around(&adjacency, &mesh.triangles, e) else { continue };
+        let Some(corners) = adjacency.hinge(&mesh.triangles, e) else { continue };
         let stiffness = corners.iter().map(|&v| stiffness[v as usize]).fold(0.0, f64::max);
         if stiffness > 0.0 {
             let [a, b, ..] = corners;
@@ -58,19 +58,6 @@ pub fn bends(piece: &Piece, mesh: &PieceMesh) -> Vec<([u32; 2], Bend)> {
         }
     }
     found
-}
-
-/// The ends of edge `e` in the order in which its first triangle traverses it, that triangle's third corner, and that of the other
-/// triangle. None on the border.
-fn around(adjacency: &Adjacency, triangles: &[[u32; 3]], e: u32) -> Option<[u32; 4]> {
-    let &[s, t] = adjacency.edge_triangles.of(e) else { return None };
-    let from = |t: u32| {
-        let k = adjacency.triangle_edges[t as usize].iter().position(|&side| side == e)?;
-        let vs = triangles[t as usize];
-        Some([vs[k], vs[(k + 1) % 3], vs[(k + 2) % 3]])
-    };
-    let ([a, b, c], [_, _, d]) = (from(s)?, from(t)?);
-    Some([a, b, c, d])
 }
 
 /// Mean height of the triangles a b c and b a d over a b.

@@ -134,6 +134,19 @@ impl Adjacency {
         triangles.iter().zip(&self.triangle_edges).map(bits).collect()
     }
 
+    /// The hinge at edge `e` of `triangles` (those that this is the adjacency of): the ends of the edge in the order in which its
+    /// first triangle traverses it, that triangle's third corner, and that of the other triangle. None on the border.
+    pub fn hinge(&self, triangles: &[[u32; 3]], e: u32) -> Option<[u32; 4]> {
+        let &[s, t] = self.edge_triangles.of(e) else { return None };
+        let from = |t: u32| {
+            let k = self.triangle_edges[t as usize].iter().position(|&side| side == e)?;
+            let vs = triangles[t as usize];
+            Some([vs[k], vs[(k + 1) % 3], vs[(k + 2) % 3]])
+        };
+        let ([a, b, c], [_, _, d]) = (from(s)?, from(t)?);
+        Some([a, b, c, d])
+    }
+
     /// Memory used by all lists, bytes.
     pub fn bytes(&self) -> usize {
         let Self { edges, triangle_edges, across, edge_triangles, vertex_triangles, vertex_neighbours } =

@@ -1,5 +1,5 @@
 //! Geometry that knows nothing of cloth: meshes, adjacency, spatial trees, sparse factors, walks, winding numbers; seeded random
-//! numbers; and words about it that can be said in any language.
+//! numbers; small solids that are only looked at; and words for a person that can be said in any language.
 
 pub mod adjacency;
 pub mod barycentric;

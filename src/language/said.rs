@@ -1,9 +1,7 @@
 //! Words of other rooms in the language that is shown.
 
-use std::fmt::Display;
-
-use crate::geometry::words::{Part, Value, Words};
-use crate::language::{filled, localised, shown, tr};
+use crate::geometry::words::{Part, Value, Words, filled};
+use crate::language::{localised, shown, tr};
 
 /// `words` in the language that is shown. A text that the table lacks stays English, with its values in that language.
 pub fn said(words: &Words) -> String {
@@ -18,10 +16,7 @@ fn part(part: &Part) -> String {
         Part::Plain(text) => return text.clone(),
         Part::Text(text, values) => (tr(text), values),
     };
-    let values: Vec<(&str, String)> = values.iter().map(|(name, v)| (*name, value(v))).collect();
-    let values: Vec<(&str, &dyn Display)> =
-        values.iter().map(|(name, value)| (*name, value as &dyn Display)).collect();
-    if values.is_empty() { text.to_owned() } else { filled(text, &values) }
+    filled(text, |name| Some(value(&values.iter().find(|(known, _)| *known == name)?.1)))
 }
 
 fn value(value: &Value) -> String {

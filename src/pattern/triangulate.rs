@@ -186,9 +186,10 @@ fn piece_mesh(
     if area.abs() / (edge_length * edge_length * 0.433) > MOST_TRIANGLES {
         return Err(too_fine());
     }
-    let ridges = wrinkles::ridges(piece);
-    let fine = ridges.iter().filter(|ridge| ridge.is_fine(edge_length)).map(Ridge::count).sum::<f64>();
-    if fine > MOST_WRINKLE_POINTS || fine.is_nan() {
+    let mut ridges = wrinkles::ridges(piece);
+    ridges.retain(|ridge| ridge.is_fine(edge_length));
+    let count = ridges.iter().map(Ridge::count).sum::<f64>();
+    if count > MOST_WRINKLE_POINTS || count.is_nan() {
         let words =
             words!("its wrinkles would need more than a hundred thousand points; make them wider or shorter");
         return Err(fault(ProblemKind::NotTriangulated, words));
@@ -417,14 +418,13 @@ fn only_used(points: Vec<DVec2>, mut triangles: Vec<[u32; 3]>, keep: usize) -> (
 /// Points inside the outline: an equilateral lattice, and in wrinkles that need a finer one rows along them.
 fn inner_points(lines: &Lines, links: &[Link], ridges: &[Ridge], edge_length: f64) -> Vec<DVec2> {
     let mut points = lattice(lines, links, edge_length);
-    let fine: Vec<&Ridge> = ridges.iter().filter(|ridge| ridge.is_fine(edge_length)).collect();
-    if fine.is_empty() {
+    if ridges.is_empty() {
         return points;
     }
     let is_near = |p: DVec2, ridge: &Ridge| {
         ridge.distance(p) < ridge.wrinkle.width / 2.0 + edge_length * LATTICE_CLEARANCE
     };
-    points.retain(|&p| !fine.iter().any(|ridge| is_near(p, ridge)));
+    points.retain(|&p| !ridges.iter().any(|ridge| is_near(p, ridge)));
     let outline: Vec<[DVec2; 2]> = (0..lines.points.len()).map(|i| lines.segment(i).into()).collect();
     let is_free = |p: DVec2, row: f64| {
         let clears = |&[a, b]: &[DVec2; 2]| {
@@ -435,7 +435,7 @@ fn inner_points(lines: &Lines, links: &[Link], ridges: &[Ridge], edge_length: f6
             && links.iter().all(|link| clears(&link.ends))
             && is_inside(outline.iter().copied(), p)
     };
-    points.extend(wrinkles::points(ridges, edge_length, is_free));
+    points.extend(wrinkles::points(ridges, is_free));
     points
 }
 

@@ -189,10 +189,10 @@ pub fn risen(ridges: &[Ridge], p: DVec2) -> DVec3 {
     p.extend(0.0) + ridges.iter().map(|ridge| ridge.way(p)).sum::<DVec3>()
 }
 
-/// Points of a finer mesh in those of `ridges` for which edges of `edge_length` metres are too long; where wrinkles meet, those of
-/// the narrower one. `is_free` tells whether a point of rows at this distance (m) has room.
-pub fn points(ridges: &[Ridge], edge_length: f64, is_free: impl Fn(DVec2, f64) -> bool) -> Vec<DVec2> {
-    let mut fine: Vec<&Ridge> = ridges.iter().filter(|ridge| ridge.is_fine(edge_length)).collect();
+/// Points of a finer mesh in `ridges`; where wrinkles meet, those of the narrower one. `is_free` tells whether a point of rows at
+/// this distance (m) has room.
+pub fn points(ridges: &[Ridge], is_free: impl Fn(DVec2, f64) -> bool) -> Vec<DVec2> {
+    let mut fine: Vec<&Ridge> = ridges.iter().collect();
     fine.sort_by(|a, b| a.wrinkle.width.total_cmp(&b.wrinkle.width));
     let Some(widest) = fine.last().map(|ridge| ridge.wrinkle.row()) else { return Vec::new() };
     let cell = |p: DVec2| (p / widest).floor().as_i64vec2();
@@ -288,7 +288,7 @@ mod tests {
             line(&[(0.1, -0.1), (0.11, 0.1)], &[Some(narrow)]),
         ];
         let ridges = ridges(&Piece { lines, ..Piece::default() });
-        let found = points(&ridges, 0.02, |_, _| true);
+        let found = points(&ridges, |_, _| true);
         let least = |p: &DVec2| if ridges[1].distance(*p) < 0.012 { narrow.row() } else { 0.04 / 6.0 };
         for (i, p) in found.iter().enumerate() {
             for q in &found[..i] {
@@ -298,6 +298,9 @@ mod tests {
         let about: f64 = ridges.iter().map(Ridge::count).sum();
         let count = found.len() as f64;
         assert!(count > 0.7 * about && count < 1.1 * about, "{count} of about {about}");
-        assert!(points(&ridges, 0.003, |_, _| true).is_empty(), "the mesh is fine enough");
+        assert!(
+            ridges.iter().all(|ridge| ridge.is_fine(0.02) && !ridge.is_fine(0.003)),
+            "the mesh is fine enough"
+        );
     }
 }

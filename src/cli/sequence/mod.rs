@@ -262,8 +262,7 @@ fn check_size(
     usd: bool,
 ) -> Result<(), Failure> {
     let cloth = snapshot.garment.as_ref().map_or(0, |garment| garment.corners.len());
-    let trims = snapshot.garment.as_ref().map_or(0, |garment| with.trims.vertices(garment, &snapshot.cloth));
-    let others = body.mesh.positions.len() + trims;
+    let others = body.mesh.positions.len() + with.trims.vertices();
     let glb = (glb::animated::bytes_per_frame(cloth, others), "glTF");
     let usd = usd.then(|| (usd::bytes_per_frame(cloth, others), "USDZ"));
     for (each, format) in std::iter::once(glb).chain(usd) {

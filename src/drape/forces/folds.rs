@@ -43,7 +43,7 @@ impl Folds {
         let mut known = std::collections::BTreeSet::new();
         for (ends, angle, strength) in edges {
             let Some(e) = sheet.edge_between(ends) else { continue };
-            if let Some(vertices) = corners(sheet, e).filter(|_| known.insert(e)) {
+            if let Some(vertices) = sheet.adjacency.hinge(&sheet.triangles, e).filter(|_| known.insert(e)) {
                 let stiffness = strength * sheet.rest_length(e as usize);
                 hinges.push(Hinge { vertices, angle, stiffness });
             }
@@ -156,18 +156,6 @@ impl Hinge {
         let at_a = -(at_c * (1.0 - s) + at_d * (1.0 - t));
         Some((angle, [at_a, -(at_c * s + at_d * t), at_c, at_d]))
     }
-}
-
-/// The four vertices of a hinge at edge `e`, see [`Hinge::vertices`].
-fn corners(sheet: &Sheet, e: u32) -> Option<[u32; 4]> {
-    let &[s, t] = sheet.adjacency.edge_triangles.of(e) else { return None };
-    let side = |t: u32| {
-        let k = sheet.adjacency.triangle_edges[t as usize].iter().position(|&x| x == e)?;
-        let vs = sheet.triangles[t as usize];
-        Some([vs[k], vs[(k + 1) % 3], vs[(k + 2) % 3]])
-    };
-    let ([a, b, c], [_, _, d]) = (side(s)?, side(t)?);
-    Some([a, b, c, d])
 }
 
 #[cfg(test)]

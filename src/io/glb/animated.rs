@@ -37,41 +37,36 @@ pub fn write_animated(
     let mut builder = Builder::new();
     let cloth =
         |frame: &Frame| ClothState { positions: frame.cloth.clone(), mapped: dressed.state.mapped.clone() };
-    let state = cloth(first);
-    let triangles = Dressed { state: &state, ..dressed }.laid();
+    let triangles = Dressed { state: &cloth(first), ..dressed }.laid();
     let on_body: Vec<[u32; 3]> = triangles.iter().map(|&t| dressed.garment.triangles[t]).collect();
+    let moved = |frame: &Frame| {
+        let state = cloth(frame);
+        let normals = vertex_normals(&state.positions, &on_body);
+        (state, normals)
+    };
+    let states: Vec<(ClothState, Vec<DVec3>)> = frames.iter().map(moved).collect();
     for (id, name) in &dressed.garment.pieces {
         let own = || triangles.iter().copied().filter(|&t| dressed.garment.triangle_pieces[t] == *id);
-        let arrays = |frame: &Frame| {
-            let state = cloth(frame);
-            let normals = vertex_normals(&state.positions, &on_body);
-            PieceArrays::new(
-                &Dressed { state: &state, ..dressed },
-                *id,
-                own(),
-                &normals,
-                colours.textures.as_deref(),
-            )
+        let arrays = |(state, normals): &(ClothState, Vec<DVec3>)| {
+            PieceArrays::new(&Dressed { state, ..dressed }, *id, own(), normals, colours.textures.as_deref())
         };
-        let shown = arrays(first);
+        let shown = arrays(&states[0]);
         if shown.triangles.is_empty() {
             continue;
         }
         let sides = builder.sides(colours, *id);
         builder.piece(name, &shown, sides);
-        let others = frames[1..].iter().map(arrays);
+        let others = states[1..].iter().map(arrays);
         let moves = others.map(|piece| (piece.positions, piece.normals));
         builder.moving((&shown.positions, &shown.normals), moves, 2);
     }
     for (part, material) in dressed.trims(colours) {
-        let arrays = |frame: &Frame| {
-            let state = cloth(frame);
-            let normals = vertex_normals(&state.positions, &on_body);
-            TrimArrays::new(&Dressed { state: &state, ..dressed }, part, &normals)
+        let arrays = |(state, normals): &(ClothState, Vec<DVec3>)| {
+            TrimArrays::new(&Dressed { state, ..dressed }, part, normals)
         };
-        let shown = arrays(first);
+        let shown = arrays(&states[0]);
         builder.trim(&shown, &material);
-        let moves = frames[1..].iter().map(arrays).map(|trim| (trim.positions, trim.normals));
+        let moves = states[1..].iter().map(arrays).map(|trim| (trim.positions, trim.normals));
         builder.moving((&shown.positions, &shown.normals), moves, 1);
     }
     let bodies: Vec<&[DVec3]> = frames.iter().map(|frame| &*frame.body).collect();

@@ -5,7 +5,7 @@ use glam::{DVec2, DVec3};
 use crate::contact::Bone;
 use crate::geometry::ids::{MarkId, PieceId};
 use crate::geometry::words::{Words, within_quotes, words};
-use crate::io::words::readable;
+use crate::io::words::readable_words;
 use crate::pattern::edit::{MOST_BUTTONS, WIDEST_ALLOWANCE, is_symmetric};
 use crate::pattern::{Button, Edge, EdgeShape, InternalLine, Pattern, Piece, PlanePose, SpacePose};
 use crate::session::body_choice::BodyChoice;
@@ -197,12 +197,6 @@ fn inside(piece: &Piece) -> Result<(), Rejection> {
         true => Err(Rejection(words!("it is called symmetric, but its halves differ"))),
         false => Ok(()),
     }
-}
-
-/// `words`, which stay English where characters in them could mislead a reader or they are too long.
-pub fn readable_words(words: Words) -> Words {
-    let plain = readable(&words);
-    if words == *plain { words } else { Words::plain(plain) }
 }
 
 /// Checks every piece of a pattern, and that its counter is not below its ids.

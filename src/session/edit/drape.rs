@@ -3,6 +3,7 @@
 use crate::cloth::Fabric;
 use crate::geometry::ids::PieceId;
 use crate::geometry::words::{within_quotes, words};
+use crate::io::words::readable_words;
 use crate::session::command::Rejection;
 use crate::session::document::Document;
 use crate::session::edit::{ClothChange, Edit, checks};
@@ -89,7 +90,7 @@ fn known(name: Option<&str>) -> Result<(), Rejection> {
                 name = within_quotes(name),
                 names = names.join(", ")
             );
-            Err(Rejection(checks::readable_words(words)))
+            Err(Rejection(readable_words(words)))
         }
     }
 }

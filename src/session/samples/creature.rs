@@ -69,24 +69,14 @@ pub fn seal() -> TriMesh {
         let next = (k + 1) % sectors as u32;
         for i in 0..rings as u32 - 1 {
             let [a, b] = [i, i + 1].map(|ring| ring * sectors as u32);
-            triangles.push([a + k, b + next, b + k]);
-            triangles.push([a + k, a + next, b + next]);
+            triangles.push([a + k, b + k, b + next]);
+            triangles.push([a + k, b + next, a + next]);
         }
         let last = (rings as u32 - 1) * sectors as u32;
-        triangles.push([tail, next, k]);
-        triangles.push([nose, last + k, last + next]);
+        triangles.push([tail, k, next]);
+        triangles.push([nose, last + next, last + k]);
     }
-    let mut mesh = TriMesh { positions, triangles };
-    let volume: f64 = mesh
-        .triangles
-        .iter()
-        .map(|t| t.map(|v| mesh.positions[v as usize]))
-        .map(|[a, b, c]| a.dot(b.cross(c)))
-        .sum();
-    if volume < 0.0 {
-        mesh.triangles.iter_mut().for_each(|t| t.swap(1, 2));
-    }
-    mesh
+    TriMesh { positions, triangles }
 }
 
 /// The cloak beside the seal, in wool.

@@ -188,8 +188,8 @@ impl Sample {
         self.project(&body)
     }
 
-    /// The sample drafted for `body`, with its marks or placed round the body; the creature's cloak comes with the creature. Panics where the measurements are those of no
-    /// mannequin: this one has been built.
+    /// The sample drafted for `body`, with its marks or placed round the body; the creature's cloak comes with the creature. Panics
+    /// where the measurements are those of no mannequin: this one has been built.
     pub fn project(self, body: &Mannequin) -> Project {
         let document = match self.cut() {
             Cut::Marked(drafted) => marked(drafted, body),

@@ -1,7 +1,5 @@
 //! Depth of field of the body pane: switched on and off, its aperture chosen in a bar over the pane, and kept in the preferences.
 
-use egui::{Align2, Area, Frame, Id, Order};
-
 use crate::render::Lens;
 use crate::ui::actions::Action;
 use crate::ui::actions::asks::{Ask, Asks};
@@ -9,9 +7,6 @@ use crate::ui::app::App;
 use crate::ui::language::fields::slider;
 use crate::ui::language::tr;
 use crate::ui::preferences::depth_of_field::FNumber;
-
-/// Distance of the bar from the lower edge of the pane and from the buttons there, points.
-const BELOW: f32 = 12.0;
 
 impl App {
     /// The f-number of the depth of field; None while everything is sharp.
@@ -39,17 +34,12 @@ impl App {
 
     /// Draws the bar of the aperture, at the lower edge of the body pane, if it is open.
     pub(in crate::ui) fn aperture_ui(&mut self, ctx: &egui::Context, asks: &mut Asks) {
-        let is_open = self.shell.sets_aperture && self.shell.start.is_none();
-        let Some(pane) = self.scene_pane.area.filter(|_| is_open) else { return };
-        let bottom =
-            self.scene_pane.buttons.map_or(pane.bottom(), |buttons| buttons.top().min(pane.bottom()));
+        if !self.shell.sets_aperture {
+            return;
+        }
         let mut f_number = self.preferences.depth_of_field.f_number.limited();
-        let area = Area::new(Id::unique("aperture")).order(Order::Middle);
-        let area = area.pivot(Align2::CENTER_BOTTOM).fixed_pos(egui::pos2(pane.center().x, bottom - BELOW));
-        let shown = area.show(ctx, |ui| {
-            Frame::popup(ui.style()).show(ui, |ui| ui.horizontal(|ui| bar_ui(ui, &mut f_number)).inner).inner
-        });
-        let (slider, closes) = shown.inner;
+        let shown = self.bar_ui(ctx, "aperture", |ui| slider_ui(ui, &mut f_number));
+        let Some((slider, closes)) = shown else { return };
         let chosen = FNumber((f_number * 10.0).round() / 10.0);
         if slider.dragged() && chosen != self.preferences.depth_of_field.f_number {
             // It is kept when the slider is released.
@@ -66,10 +56,8 @@ impl App {
     }
 }
 
-/// Draws the slider and a button; the slider, and whether the bar is to be closed.
-fn bar_ui(ui: &mut egui::Ui, f_number: &mut f32) -> (egui::Response, bool) {
+fn slider_ui(ui: &mut egui::Ui, f_number: &mut f32) -> egui::Response {
     let label = ui.label(tr("Aperture"));
     let slider = slider(f_number, Lens::F_NUMBERS).logarithmic(true).max_decimals(1).prefix("f/");
-    let slider = ui.add(slider).labelled_by(label.id);
-    (slider, ui.button(tr("Done")).clicked())
+    ui.add(slider).labelled_by(label.id)
 }

@@ -4,20 +4,16 @@
 use std::path::{Path, PathBuf};
 use std::sync::mpsc::{Receiver, TryRecvError, channel};
 
-use egui::{Align2, Area, Frame, Id, Order};
-
 use crate::language::{shown, shown_in};
 use crate::render::{Harmonics, Light};
 use crate::ui::actions::Action;
 use crate::ui::actions::asks::{Ask, Asks};
 use crate::ui::app::App;
-use crate::ui::files;
+use crate::ui::files::{self, name_of};
 use crate::ui::language::fields::slider;
 use crate::ui::language::{say, tr};
 use crate::ui::preferences::lighting::{Lighting, Rotation};
 
-/// Distance of the bar from the lower edge of the pane and from the buttons there, points.
-const BELOW: f32 = 12.0;
 /// Largest width of the file's name in the bar, points.
 const NAME_WIDTH: f32 = 160.0;
 
@@ -133,20 +129,13 @@ impl App {
 
     /// Draws the bar that rotates the environment map, at the lower edge of the body pane, if it is open.
     pub(in crate::ui) fn rotation_ui(&mut self, ctx: &egui::Context, asks: &mut Asks) {
-        let is_open = self.shell.environment.is_rotated && self.shell.start.is_none();
-        let Some(pane) = self.scene_pane.area.filter(|_| is_open) else { return };
+        if !self.shell.environment.is_rotated {
+            return;
+        }
         let Some(name) = self.environment().map(|(path, _)| name_of(path)) else { return };
-        let bottom =
-            self.scene_pane.buttons.map_or(pane.bottom(), |buttons| buttons.top().min(pane.bottom()));
         let mut rotation = self.preferences.lighting.rotation;
-        let area = Area::new(Id::unique("environment map")).order(Order::Middle);
-        let area = area.pivot(Align2::CENTER_BOTTOM).fixed_pos(egui::pos2(pane.center().x, bottom - BELOW));
-        let shown = area.show(ctx, |ui| {
-            Frame::popup(ui.style())
-                .show(ui, |ui| ui.horizontal(|ui| bar_ui(ui, &name, &mut rotation)).inner)
-                .inner
-        });
-        let (slider, closes) = shown.inner;
+        let shown = self.bar_ui(ctx, "environment map", |ui| slider_ui(ui, &name, &mut rotation));
+        let Some((slider, closes)) = shown else { return };
         if slider.dragged() && rotation != self.preferences.lighting.rotation {
             // It is kept when the slider is released.
             self.preferences.lighting.rotation = rotation;
@@ -162,18 +151,12 @@ impl App {
     }
 }
 
-/// Draws the name of the image, the slider, and a button; the slider, and whether the bar is to be closed.
-fn bar_ui(ui: &mut egui::Ui, name: &str, rotation: &mut Rotation) -> (egui::Response, bool) {
+/// Draws the name of the image and the slider.
+fn slider_ui(ui: &mut egui::Ui, name: &str, rotation: &mut Rotation) -> egui::Response {
     ui.scope(|ui| {
         ui.set_max_width(NAME_WIDTH);
         ui.add(egui::Label::new(egui::RichText::new(name).weak()).truncate());
     });
     let label = ui.label(tr("Rotation"));
-    let slider = ui.add(slider(&mut rotation.0, 0..=Rotation::MOST).suffix("°")).labelled_by(label.id);
-    (slider, ui.button(tr("Done")).clicked())
-}
-
-/// The name of a file, for people.
-fn name_of(path: &Path) -> String {
-    path.file_name().map_or_else(|| path.display().to_string(), |name| name.to_string_lossy().into_owned())
+    ui.add(slider(&mut rotation.0, 0..=Rotation::MOST).suffix("°")).labelled_by(label.id)
 }

@@ -3,6 +3,7 @@
 pub(in crate::ui) mod act;
 pub(in crate::ui) mod all_sizes;
 pub(in crate::ui) mod arrange;
+mod bar;
 pub(in crate::ui) mod demo;
 pub(in crate::ui) mod depth_of_field;
 pub(in crate::ui) mod drawer;
@@ -479,7 +480,6 @@ impl App {
             Answer::Discard(action) => self.act_unguarded(ctx, action),
             Answer::File(purpose, path) => self.file(ctx, purpose, &path),
             Answer::Restore(left) => self.restore(ctx, *left),
-            Answer::SaveAs => self.ask_file(Purpose::Save),
             Answer::Elsewhere(purpose) => self.ask_file(purpose),
             Answer::Export(written) => {
                 if let Err(words) = self.write_export(&written) {

@@ -87,7 +87,7 @@ impl App {
         if body { self.body_ui(ui, with, asks) } else { self.table_ui(ui, with, asks) }
     }
 
-    /// Marks a hidden pane as having no pointer over it.
+    /// Marks a hidden pane as having no pointer over it; a line that is drawn on the cloth is given up.
     fn hide_pane(&mut self, table: bool) {
         if table {
             let pane = &mut self.pattern_pane;

@@ -433,7 +433,7 @@ pub fn write_together(files: &[(PathBuf, Vec<u8>)]) -> Result<(), String> {
 /// The names of the files beside the first of `files` that are there already and would be lost.
 pub fn there_beside(files: &[(PathBuf, Vec<u8>)]) -> Vec<String> {
     let others = files.iter().skip(1).filter(|(path, _)| path.exists());
-    others.map(|(path, _)| path.file_name().unwrap_or_default().to_string_lossy().into_owned()).collect()
+    others.map(|(path, _)| name_of(path)).collect()
 }
 
 /// The project of a sample on the body that it is made for.
@@ -494,10 +494,14 @@ enum Deed {
     Take,
 }
 
+/// The name of a file, for people.
+pub fn name_of(path: &Path) -> String {
+    path.file_name().map_or_else(|| path.display().to_string(), |name| name.to_string_lossy().into_owned())
+}
+
 fn in_words(path: &Path, deed: Deed, why: &Words) -> String {
     let why = said(why);
-    let name =
-        path.file_name().map_or_else(|| path.display().to_string(), |n| n.to_string_lossy().into_owned());
+    let name = name_of(path);
     match deed {
         Deed::Open => say!("{name} could not be opened: {why}", name, why),
         Deed::Save => say!("{name} could not be saved: {why}", name, why),

@@ -79,8 +79,6 @@ pub enum Answer {
     Export(Box<WornFiles>),
     /// Choose another file.
     Elsewhere(Purpose),
-    /// Save under another name.
-    SaveAs,
     /// The pattern in this file, in this unit.
     Pattern(PathBuf, DrawingUnit),
     /// A tech pack in the language with this code.
@@ -223,7 +221,7 @@ fn changed_ui(ctx: &egui::Context, path: &Path) -> Answer {
     let words =
         say!("{path} was changed by another program since you opened or saved it.", path = path.display());
     let buttons = vec![
-        (tr("Save as…"), "", Answer::SaveAs),
+        (tr("Save as…"), "", Answer::Elsewhere(Purpose::Save)),
         (tr("Save over it"), tr("The other version stays as .bak"), Answer::Overwrite(path.to_owned())),
         (tr("Cancel"), "", Answer::Cancel),
     ];
@@ -231,7 +229,7 @@ fn changed_ui(ctx: &egui::Context, path: &Path) -> Answer {
 }
 
 fn not_saved_ui(ctx: &egui::Context, path: &Path, words: &str) -> Answer {
-    let mut buttons = vec![(tr("Save as…"), "", Answer::SaveAs)];
+    let mut buttons = vec![(tr("Save as…"), "", Answer::Elsewhere(Purpose::Save))];
     if whole_file::is_protected(path) {
         let tip = tr("It stays write-protected; the version before stays as .bak");
         buttons.push((tr("Replace it anyway"), tip, Answer::Replace(path.to_owned())));
