@@ -186,8 +186,7 @@ fn piece_mesh(
     if area.abs() / (edge_length * edge_length * 0.433) > MOST_TRIANGLES {
         return Err(too_fine());
     }
-    let mut ridges = wrinkles::ridges(piece);
-    ridges.retain(|ridge| ridge.is_fine(edge_length));
+    let ridges: Vec<Ridge> = wrinkles::ridges(piece).into_iter().filter(|r| r.is_fine(edge_length)).collect();
     let count = ridges.iter().map(Ridge::count).sum::<f64>();
     if count > MOST_WRINKLE_POINTS || count.is_nan() {
         let words =
