@@ -110,8 +110,8 @@ impl ScenePane {
         self.is_drawing_line().then(words)
     }
 
-    /// A click with the tool, or Space at the keyboard's cursor: adds a point. With `double` it is the second click of a double
-    /// click, which ends the line.
+    /// A click with the tool, or Space at the keyboard's cursor: adds a point. At the last point, or with `double` as the second
+    /// click of a double click, it ends the line: where drawing is slow, the second click comes too late to be one of a double click.
     pub(super) fn click_line(
         &mut self,
         seen: &Seen<'_>,
@@ -121,25 +121,29 @@ impl ScenePane {
         asks: &mut Asks,
     ) {
         let again = double && self.line.clicked.is_some_and(|first| first.distance(at) <= SAME);
+        let mut adds = false;
         if !again {
             match self.line_place(seen, pane, at, held) {
-                Ok(place) => self.add_to_line(place, at),
+                Ok(place) => adds = self.add_to_line(place, at),
                 Err(why) => return asks.push(Ask::Say(why.words())),
             }
         }
         // Of a double click within one slow frame only one click is told.
-        if double {
+        if double || !adds {
             self.finish_line(asks);
         }
     }
 
-    fn add_to_line(&mut self, ClothPlace { piece, at: own }: ClothPlace, at: Pos2) {
+    /// Adds a point, unless it is at the last one.
+    fn add_to_line(&mut self, ClothPlace { piece, at: own }: ClothPlace, at: Pos2) -> bool {
         let line = &mut self.line;
-        if line.points.last().is_none_or(|last| last.distance(own) >= SHORTEST) {
+        let adds = line.points.last().is_none_or(|last| last.distance(own) >= SHORTEST);
+        if adds {
             line.piece = Some(piece);
             line.points.push(own);
         }
         line.clicked = Some(at);
+        adds
     }
 
     fn finish_line(&mut self, asks: &mut Asks) {
