@@ -242,7 +242,12 @@ fn pins_are_selected_locked_moved_and_pulled_out_together() {
 #[test]
 fn bones_are_drawn_through_the_body_and_taken_away() {
     let mut window = window();
-    choose(&mut window, "Garment", "Draw bones");
+    let choose = |window: &mut Window, entry: &str| {
+        choose(window, "Garment", "Bones");
+        window.get_by_label(entry).click();
+        window.run_steps(4);
+    };
+    choose(&mut window, "Draw bones");
     let bones = |window: &Window| app(window).session().document().bones.clone();
     let middle = pane(&window, "Body pane").center();
     let path = line(pane(&window, "Body pane"), Vec2::new(50.0, 0.0));
@@ -257,6 +262,6 @@ fn bones_are_drawn_through_the_body_and_taken_away() {
     button(&mut window, middle + Vec2::X * 25.0, PointerButton::Primary, false, Modifiers::COMMAND);
     window.run_steps(2);
     assert_eq!(bones(&window).map(|bones| bones.len()), Some(0));
-    choose(&mut window, "Garment", "The body's own bones");
+    choose(&mut window, "The body's own bones");
     assert_eq!(bones(&window), None);
 }

@@ -59,7 +59,9 @@ pub fn menu_bar_ui(ui: &mut egui::Ui, now: &FrameContext, asks: &mut Asks) {
             items(ui, now, asks, &[Action::Choose(Tool::Pin), Action::ClearPins]);
             items(ui, now, asks, &[Action::Choose(Tool::ClothLine)]);
             ui.separator();
-            items(ui, now, asks, &[Action::Choose(Tool::Bone), Action::OwnBones, Action::NoBones]);
+            ui.menu_button(tr("Bones"), |ui| {
+                items(ui, now, asks, &[Action::Choose(Tool::Bone), Action::OwnBones, Action::NoBones]);
+            });
         });
         menu(ui, tr("View"), |ui| view_ui(ui, now, asks));
         menu(ui, tr("Help"), |ui| help_ui(ui, now, asks));

@@ -136,7 +136,7 @@ pub const ROWS: &[Row] = &[
     .keys(&[shift(Key::I)])
     .needs(&[Need::Dressed]),
     row(
-        "Garment",
+        "Garment › Bones",
         Action::Choose(Tool::Bone),
         "Draw bones",
         "Drag through the body to draw a bone, which cloth cannot be pulled across; \
@@ -144,14 +144,19 @@ pub const ROWS: &[Row] = &[
     )
     .needs(&[Need::Body]),
     row(
-        "Garment",
+        "Garment › Bones",
         Action::OwnBones,
         "The body's own bones",
         "Use the bones the body came with, or those found in it, and drop drawn ones",
     )
     .needs(&[Need::Body]),
-    row("Garment", Action::NoBones, "No bones", "Use no bones: cloth can be pulled across arms and neck")
-        .needs(&[Need::Body]),
+    row(
+        "Garment › Bones",
+        Action::NoBones,
+        "No bones",
+        "Use no bones: cloth can be pulled across arms and neck",
+    )
+    .needs(&[Need::Body]),
     row("Garment", Action::ClearPins, "Remove all pins", "Pull out every pin in the cloth")
         .needs(&[Need::Pins]),
 ];
