@@ -1,12 +1,6 @@
 // A 4 x 4 mean of the hollows that does not mix near with far.
 @group(1) @binding(0) var rough_map: texture_2d<f32>;
 
-@vertex
-fn blur_vertex(@builtin(vertex_index) i: u32) -> @builtin(position) vec4f {
-    let corner = vec2f(f32((i << 1u) & 2u), f32(i & 2u));
-    return vec4f(corner * 2.0 - 1.0, 0.0, 1.0);
-}
-
 @fragment
 fn blur_fragment(@builtin(position) at: vec4f) -> @location(0) vec4f {
     let pixel = vec2i(at.xy);

@@ -5,12 +5,6 @@
 
 const SAMPLES: i32 = 12;
 
-@vertex
-fn hollows_vertex(@builtin(vertex_index) i: u32) -> @builtin(position) vec4f {
-    let corner = vec2f(f32((i << 1u) & 2u), f32(i & 2u));
-    return vec4f(corner * 2.0 - 1.0, 0.0, 1.0);
-}
-
 // The place in the whole picture, 0..1, of a texel.
 fn place_of(texel: vec2i) -> vec2f {
     return (frame.around.xy + 2.0 * vec2f(texel) + 1.0) * frame.viewport.zw;

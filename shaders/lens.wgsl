@@ -14,12 +14,6 @@ const FAR: f32 = 1e9;
 // Side of a block of pixels of the whole picture. As in src/render/lens_blur.rs.
 const BLOCK: i32 = 16;
 
-@vertex
-fn lens_vertex(@builtin(vertex_index) i: u32) -> @builtin(position) vec4f {
-    let corner = vec2f(f32((i << 1u) & 2u), f32(i & 2u));
-    return vec4f(corner * 2.0 - 1.0, 0.0, 1.0);
-}
-
 // The first block of the whole picture that the part reaches into.
 fn first_block() -> vec2i {
     return vec2i(frame.part.xy) / BLOCK;

@@ -16,10 +16,6 @@ const DENSITY: f32 = 10.0;
 const FEWEST: i32 = 48;
 const MOST: i32 = 320;
 
-fn decoded(c: vec3f) -> vec3f {
-    return select(pow((c + 0.055) / 1.055, vec3f(2.4)), c / 12.92, c <= vec3f(0.04045));
-}
-
 // Linear, premultiplied light of the picture, whose encoded values are multiplied with alpha.
 @fragment
 fn light_fragment(@builtin(position) at: vec4f) -> @location(0) vec4f {

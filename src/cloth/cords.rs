@@ -7,15 +7,13 @@ use glam::{DVec2, Quat, Vec3};
 use crate::cloth::{Garment, trims::Along};
 use crate::geometry::ids::PieceId;
 use crate::geometry::polygon::distance_to_segment;
-use crate::geometry::solid::Solid;
+use crate::geometry::solid::{Rings, Solid};
 use crate::pattern::{Pattern, Piece, Piping, curve};
 
 /// Sides of a tube.
 const SIDES: usize = 10;
 /// Parts into which the curve along each edge of the cloth's mesh is cut.
 const PARTS: usize = 4;
-/// By how much an end is domed, in radii.
-const DOME: f32 = 0.4;
 /// Tolerance to which lines of the pattern are flattened, metres.
 const TOLERANCE: f64 = 2e-4;
 
@@ -254,24 +252,12 @@ fn push_tube(
             mesh.normals.push(normal);
         }
     }
-    let (n, rings) = (SIDES as u32, axis.len() as u32);
-    let corner = |i: u32, k: u32| first + (i % rings) * n + k % n;
-    let spans = if is_closed { rings } else { rings - 1 };
-    for i in 0..spans {
-        for k in 0..n {
-            let [a, b, c, d] = [corner(i, k), corner(i, k + 1), corner(i + 1, k + 1), corner(i + 1, k)];
-            mesh.triangles.extend([[a, b, c], [a, c, d]]);
-        }
-    }
-    if !is_closed {
-        for (i, out) in [(0, -1.0), (rings - 1, 1.0)] {
-            let normal = frames[i as usize][0] * out;
-            let tip = mesh.positions.len() as u32;
-            mesh.positions.push(axis[i as usize] + normal * (radius * DOME));
-            mesh.normals.push(normal);
-            let turned = |[a, b]: [u32; 2]| if out > 0.0 { [a, b, tip] } else { [b, a, tip] };
-            mesh.triangles.extend((0..n).map(|k| turned([corner(i, k), corner(i, k + 1)])));
-        }
+    let rings = Rings { first, sides: SIDES as u32, count: axis.len() as u32 };
+    mesh.join(rings, is_closed);
+    if let ([from, .., to], [[start, _], .., [end, _]]) = (axis, &frames[..])
+        && !is_closed
+    {
+        mesh.close(rings, [*from, *to], [-*start, *end], radius);
     }
     mesh.colours.resize(mesh.positions.len(), colour);
 }
@@ -282,6 +268,7 @@ mod tests {
 
     use super::*;
     use crate::cloth::build;
+    use crate::geometry::solid::tests::volume_of_closed;
     use crate::pattern::edit::{PatternEdit, TrimLine, apply};
     use crate::pattern::{EdgeRef, InternalLine, Seam};
 
@@ -291,21 +278,6 @@ mod tests {
         let mut mesh = Solid::default();
         push_tube(&mut mesh, (axis, Vec3::ZERO), is_closed, RADIUS, [1, 2, 3]);
         mesh
-    }
-
-    /// Checks that a mesh is closed and turned outwards: each side belongs to two triangles, one way each. Gives its volume.
-    fn volume_of_closed(mesh: &Solid) -> f32 {
-        let mut sides: BTreeMap<[u32; 2], i32> = BTreeMap::new();
-        for &[a, b, c] in &mesh.triangles {
-            [[a, b], [b, c], [c, a]].into_iter().for_each(|side| *sides.entry(side).or_default() += 1);
-        }
-        for (&[a, b], &count) in &sides {
-            assert_eq!((count, sides.get(&[b, a])), (1, Some(&1)), "side {a} to {b}");
-        }
-        assert_eq!(mesh.normals.len(), mesh.positions.len());
-        assert_eq!(mesh.colours.len(), mesh.positions.len());
-        let p = |v: u32| mesh.positions[v as usize];
-        mesh.triangles.iter().map(|&[a, b, c]| p(a).dot(p(b).cross(p(c))) / 6.0).sum()
     }
 
     #[test]
@@ -320,7 +292,7 @@ mod tests {
             assert!((normal.yz() * RADIUS - p.yz()).length() < 1e-7 && normal.is_normalized());
         }
         let section = SIDES as f32 / 2.0 * (std::f32::consts::TAU / SIDES as f32).sin() * RADIUS * RADIUS;
-        let wanted = section * (0.06 + 2.0 * DOME * RADIUS / 3.0);
+        let wanted = section * (0.06 + 2.0 * crate::geometry::solid::DOME * RADIUS / 3.0);
         assert!((volume_of_closed(&mesh) / wanted - 1.0).abs() < 1e-3);
     }
 

@@ -8,7 +8,7 @@ use glam::{DVec3, Vec3};
 use crate::cloth::cords::Cord;
 use crate::cloth::dashes::{Station, dash_stations};
 use crate::cloth::trim_shapes::{
-    AROUND_BUTTON, GAP, HEM_LAYER, SLIT, STITCH_SHARES, TAPE, TAPE_WIDTH, THREAD_THICKNESS, TOOTH,
+    AROUND_BUTTON, GAP, SLIT, STITCH_SHARES, TAPE, TAPE_WIDTH, THREAD_THICKNESS, TOOTH, hem_layer,
     push_button, push_hem, shade,
 };
 use crate::cloth::{ClothState, FlatPlace, Garment, TrimShapes};
@@ -252,12 +252,8 @@ fn push_threads(solid: &mut Solid, look: &Button, place: &FlatPlace, cloth: &Lai
 
 /// The layer of a hem as [`push_hem`] takes it.
 fn layer(pairs: &[[FlatPlace; 2]], cloth: &Laid<'_>) -> Vec<[Vec3; 3]> {
-    let one = |[edge, inner]: &[FlatPlace; 2]| {
-        let [edge_at, inner_at] = [edge, inner].map(|place| cloth.point(place));
-        let [below, under] = [edge, inner].map(|place| cloth.normal(place) * HEM_LAYER);
-        [edge_at, edge_at - below, inner_at - under]
-    };
-    pairs.iter().map(one).collect()
+    let on = |place: &FlatPlace| [cloth.point(place), cloth.normal(place)];
+    pairs.iter().map(|[edge, inner]| hem_layer([on(edge), on(inner)], 1.0)).collect()
 }
 
 /// What edges a buttonhole.

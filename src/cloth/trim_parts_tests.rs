@@ -129,7 +129,10 @@ fn the_layer_of_a_hem_lies_on_the_inner_side() {
     let hem = all.parts.iter().find(|part| part.kind == TrimKind::Hem).expect("a hem");
     assert!(matches!(hem.paint, Paint::Inside(_)));
     let (low, high) = bounds(&solid(hem, &hung));
-    assert!((low - Vec3::new(0.0, 0.0, -HEM_LAYER)).abs().max_element() < 1e-6, "{low}");
+    assert!(
+        (low - Vec3::new(0.0, 0.0, -crate::cloth::trim_shapes::HEM_LAYER)).abs().max_element() < 1e-6,
+        "{low}"
+    );
     assert!((high - Vec3::new(0.2, 0.03, 0.0)).abs().max_element() < 1e-6, "{high}");
 }
 

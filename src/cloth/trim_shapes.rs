@@ -157,6 +157,12 @@ pub fn push_button(
     [[(-1.0, -1.0), (1.0, 1.0)], [(-1.0, 1.0), (1.0, -1.0)]].map(|ends| ends.map(|(x, y)| hole(x, y)))
 }
 
+/// The layer of a hem at one place, as [`push_hem`] takes it, from point and normal at the edge of the cloth and at the inner border.
+pub fn hem_layer([edge, inner]: [[Vec3; 2]; 2], scale: f32) -> [Vec3; 3] {
+    let [below, under] = [edge, inner].map(|[_, normal]| normal * (HEM_LAYER * scale));
+    [edge[0], edge[0] - below, inner[0] - under]
+}
+
 /// Adds the layer of a hem, without normals: along it the edge of the cloth, the edge of the layer, and its inner border.
 pub fn push_hem(solid: &mut Solid, ends: &[[Vec3; 3]], colour: [u8; 3]) {
     let first = solid.positions.len() as u32;

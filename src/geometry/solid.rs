@@ -4,7 +4,7 @@
 use glam::Vec3;
 
 /// By how much the end of a rod is domed, in half heights.
-const DOME: f32 = 0.4;
+pub(crate) const DOME: f32 = 0.4;
 /// Distance of two points of an axis, in half thicknesses of its rod, from which on they give a direction: at the rounding of
 /// single precision, nearer ones give any.
 const APART: f32 = 0.1;
@@ -40,6 +40,23 @@ impl Section {
     }
 }
 
+/// Rings of vertices that follow each other in a solid.
+#[derive(Clone, Copy, Debug)]
+pub struct Rings {
+    /// The first vertex.
+    pub first: u32,
+    /// Vertices of a ring.
+    pub sides: u32,
+    /// Number of rings, at least 1.
+    pub count: u32,
+}
+
+impl Rings {
+    fn corner(self, ring: u32, side: u32) -> u32 {
+        self.first + ring % self.count * self.sides + side % self.sides
+    }
+}
+
 impl Solid {
     /// Adds a rod, with normals, about the polyline `axis` of two points or more; `up` is at each of them a direction out of the
     /// surface that it lies on. Its ends are closed by domes. It has [`Section::vertices`] vertices, and none without points.
@@ -70,21 +87,34 @@ impl Solid {
                 self.normals.push(normal.normalize_or(out));
             }
         }
-        let corner = |i: u32, k: u32| first + i * n + k % n;
-        for i in 0..last as u32 {
-            for k in 0..n {
-                let [a, b, c, d] = [corner(i, k), corner(i, k + 1), corner(i + 1, k + 1), corner(i + 1, k)];
+        let rings = Rings { first, sides: n, count: axis.len() as u32 };
+        self.join(rings, false);
+        self.close(rings, [axis[0], axis[last]], [-ends[0], ends[1]], half_height);
+    }
+
+    /// Adds the triangles from ring to ring, and from the last to the first where it `is_closed`.
+    pub fn join(&mut self, rings: Rings, is_closed: bool) {
+        let spans = if is_closed { rings.count } else { rings.count.saturating_sub(1) };
+        for i in 0..spans {
+            for k in 0..rings.sides {
+                let [a, b, c, d] =
+                    [(i, k), (i, k + 1), (i + 1, k + 1), (i + 1, k)].map(|(i, k)| rings.corner(i, k));
                 self.triangles.extend([[a, b, c], [a, c, d]]);
             }
         }
-        for (i, way, turned) in [(0, -ends[0], true), (last, ends[1], false)] {
+    }
+
+    /// Closes the first and the last ring by domes: about the middles of the rings, `ways` out of them (unit vectors), of rings of
+    /// this `radius`.
+    pub fn close(&mut self, rings: Rings, middles: [Vec3; 2], ways: [Vec3; 2], radius: f32) {
+        for (end, (at, way)) in middles.into_iter().zip(ways).enumerate() {
             let tip = self.positions.len() as u32;
-            self.positions.push(axis[i] + way * (half_height * DOME));
+            self.positions.push(at + way * (radius * DOME));
             self.normals.push(way);
-            let i = i as u32;
-            self.triangles.extend((0..n).map(|k| match turned {
-                true => [corner(i, k + 1), corner(i, k), tip],
-                false => [corner(i, k), corner(i, k + 1), tip],
+            let ring = if end == 0 { 0 } else { rings.count - 1 };
+            self.triangles.extend((0..rings.sides).map(|k| {
+                let [a, b] = [k, k + 1].map(|k| rings.corner(ring, k));
+                if end == 0 { [b, a, tip] } else { [a, b, tip] }
             }));
         }
     }
@@ -107,7 +137,7 @@ impl Solid {
 }
 
 #[cfg(test)]
-mod tests {
+pub(crate) mod tests {
     use std::collections::BTreeMap;
 
     use super::*;
@@ -115,7 +145,7 @@ mod tests {
     const FLAT: Section = Section { half_width: 0.002, half_height: 0.0005, sides: 6 };
 
     /// Checks that each side of a triangle belongs to one other, the other way. Gives the volume.
-    fn volume_of_closed(solid: &Solid) -> f32 {
+    pub(crate) fn volume_of_closed(solid: &Solid) -> f32 {
         let mut sides: BTreeMap<[u32; 2], i32> = BTreeMap::new();
         for &[a, b, c] in &solid.triangles {
             [[a, b], [b, c], [c, a]].into_iter().for_each(|side| *sides.entry(side).or_default() += 1);

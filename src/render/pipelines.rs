@@ -99,12 +99,12 @@ impl Pipelines {
             hollows: make.pipeline(Pass {
                 extra: &[Some(&hollows_layout)],
                 fragment: Some(("hollows_fragment", Some(HOLLOWS.into()))),
-                ..Pass::new(&hollows, "hollows_vertex")
+                ..Pass::new(&hollows, "whole_vertex")
             }),
             blur: make.pipeline(Pass {
                 extra: &[Some(&blur_layout)],
                 fragment: Some(("blur_fragment", Some(HOLLOWS.into()))),
-                ..Pass::new(&blur, "blur_vertex")
+                ..Pass::new(&blur, "whole_vertex")
             }),
             finished: Pictured::finished(&make, gpu.samples, &light_layout, &material_layout),
             draft: None,
@@ -162,7 +162,7 @@ impl LensPipelines {
             make.pipeline(Pass {
                 extra: &[Some(inputs)],
                 fragment: Some((fragment, Some(format.into()))),
-                ..Pass::new(module, "lens_vertex")
+                ..Pass::new(module, "whole_vertex")
             })
         };
         Self {
@@ -255,7 +255,7 @@ impl Pictured {
                 fragment: Some(("background_fragment", Some(COLOUR.into()))),
                 depth: Some(UNTESTED),
                 samples,
-                ..Pass::new(&background, "background_vertex")
+                ..Pass::new(&background, "whole_vertex")
             }),
             ground: make.pipeline(ground),
             sheer: make.pipeline(Pass {

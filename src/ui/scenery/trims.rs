@@ -9,7 +9,7 @@ use glam::Vec3;
 use crate::cloth::cords::{Cord, Ends, is_piped};
 use crate::cloth::dashes::dashes;
 use crate::cloth::trim_shapes::{
-    AROUND_BUTTON, GAP, HEM_LAYER, SLIT, STITCH_SHARES, TAPE, TAPE_WIDTH, THREAD_THICKNESS, TOOTH,
+    AROUND_BUTTON, GAP, SLIT, STITCH_SHARES, TAPE, TAPE_WIDTH, THREAD_THICKNESS, TOOTH, hem_layer,
     push_button, push_hem, shade,
 };
 use crate::cloth::{ClothState, FlatPlace, Garment, TrimShapes};
@@ -101,10 +101,9 @@ impl TrimScenery {
             let ends: Vec<Option<[Vec3; 3]>> = pairs
                 .iter()
                 .map(|[edge, inner]| {
-                    let point = |place: &FlatPlace| place.point(garment, state).map(|p| p.as_vec3());
-                    let (edge_at, inner_at) = (point(edge)?, point(inner)?);
-                    let [below, under] = [edge, inner].map(|place| normal_at(place) * (HEM_LAYER * scale));
-                    Some([edge_at, edge_at - below, inner_at - under])
+                    let on =
+                        |place: &FlatPlace| Some([place.point(garment, state)?.as_vec3(), normal_at(place)]);
+                    Some(hem_layer([on(edge)?, on(inner)?], scale))
                 })
                 .collect();
             for run in ends.split(Option::is_none) {
