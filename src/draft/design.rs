@@ -11,7 +11,7 @@ use crate::draft::garment::Garment;
 use crate::draft::hood::{Hood, hood};
 use crate::draft::neckline::Neckline;
 use crate::draft::one_shoulder::{OneShoulder, one_shoulder};
-use crate::draft::skirt::{Shape, Skirt, skirt};
+use crate::draft::skirt::{CLEARANCE, Shape, Skirt, skirt};
 use crate::draft::sleeve::{self, Sleeve};
 use crate::draft::trousers::{Trousers, trousers};
 use crate::geometry::random::Random;
@@ -235,7 +235,15 @@ impl Design {
                 garment.sew(&back, &tops[1]);
             }
             (None, Some(height)) => {
-                waistband(&mut garment, form, &Band::plain(height, girth, level), &tops);
+                let plain = Band::plain(height, girth, level);
+                // With turn-ups it is sewn as it is placed, and a band nearer to the body than the legs may end up inside them.
+                let band = match &self.bottom {
+                    Some(Bottom::Trousers(cut)) if cut.turn_up.is_some() => {
+                        Band { clearance: CLEARANCE, ..plain }
+                    }
+                    _ => plain,
+                };
+                waistband(&mut garment, form, &band, &tops);
             }
             (None, None) => {}
         }

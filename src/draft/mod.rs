@@ -24,6 +24,7 @@ mod sizes;
 mod skirt;
 mod sleeve;
 mod trousers;
+mod turn_up;
 
 pub use bodice::{Bodice, Hem, Opening};
 pub use cape::{Cape, cape};

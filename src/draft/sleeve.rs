@@ -1,4 +1,4 @@
-//! Sleeves of a front and a back half: set-in or raglan, with or without cuffs.
+//! Sleeves of a front and a back half: set-in or raglan, with cuffs, turn-ups or neither.
 
 use glam::{DVec2, DVec3};
 use serde::Serialize;
@@ -7,6 +7,7 @@ use crate::draft::bodice::Trunk;
 use crate::draft::form::Form;
 use crate::draft::garment::{Facing, Garment, Part};
 use crate::draft::path::{Path, cubic_length, solved};
+use crate::draft::turn_up::turn_up;
 use crate::geometry::ids::PieceId;
 use crate::geometry::random::Random;
 use crate::pattern::Piece;
@@ -37,6 +38,9 @@ pub struct Sleeve {
     pub cuff: Option<f64>,
     /// Length of the hem over that of the cuff.
     pub gather: f64,
+    /// Height of a turn-up at the hem of a sleeve without cuff; None: there is none.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub turn_up: Option<f64>,
 }
 
 impl Sleeve {
@@ -48,7 +52,7 @@ impl Sleeve {
         let bell = random.chance(0.2);
         let hem_ease = if bell { random.between(0.14, 0.20) } else { random.between(0.06, 0.11) };
         let puff = if may_puff && random.chance(0.25) { random.between(1.12, 1.30) } else { 1.0 };
-        Self { length, ease, hem_ease, puff, cuff, gather: random.between(1.1, 1.4) }
+        Self { length, ease, hem_ease, puff, cuff, gather: random.between(1.1, 1.4), turn_up: None }
     }
 
     /// Girth of the arm at a share of its length from the shoulder, metres.
@@ -219,6 +223,8 @@ fn finish(
                 garment.sew(&runs[0], &runs[1]);
             }
             garment.sew_alike(&[cuff_front], &[cuff_back], &["overarm", "underarm"], DVec3::X);
+        } else if let Some(height) = cut.turn_up {
+            turn_up(garment, height, [front, back], "sleeve hem", ["overarm", "underarm"]);
         }
     }
 }

@@ -7,6 +7,7 @@ use crate::draft::form::Form;
 use crate::draft::garment::{Facing, Garment, Part, Run, UPWARDS};
 use crate::draft::path::{Dart, Path, solved};
 use crate::draft::skirt::CLEARANCE;
+use crate::draft::turn_up::turn_up;
 use crate::geometry::ids::PieceId;
 use crate::geometry::random::Random;
 use crate::pattern::Piece;
@@ -29,6 +30,9 @@ pub struct Trousers {
     pub knee_ease: f64,
     /// Ease added to the girth of the leg at the hem.
     pub hem_ease: f64,
+    /// Height of turn-ups at the hems; None: there are none.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub turn_up: Option<f64>,
 }
 
 impl Trousers {
@@ -41,6 +45,7 @@ impl Trousers {
             crotch_ease: random.between(0.025, 0.045),
             knee_ease: knee_ease + random.between(0.0, 0.03),
             hem_ease: hem_ease + random.between(0.0, 0.03),
+            turn_up: None,
         }
     }
 
@@ -52,6 +57,7 @@ impl Trousers {
             crotch_ease: random.between(0.025, 0.045),
             knee_ease: 0.0,
             hem_ease: random.between(0.06, 0.14),
+            turn_up: None,
         }
     }
 }
@@ -222,6 +228,9 @@ pub fn trousers(garment: &mut Garment, form: &Form, cut: &Trousers, girth: f64, 
     }
     for hand in 0..2 {
         garment.sew_alike(&front[hand..=hand], &back[hand..=hand], &["out", "in"], UPWARDS);
+        if let Some(height) = cut.turn_up {
+            turn_up(garment, height, [front[hand], back[hand]], "hem", ["out", "in"]);
+        }
     }
     pairs.map(|pieces| garment.run(&pieces, "waist", DVec3::X))
 }

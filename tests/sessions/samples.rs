@@ -8,8 +8,10 @@ use glam::{DVec2, DVec3};
 use serde_json::Value;
 use toile::body::readings::readings;
 use toile::body::{Measurements, Surface, mannequin};
-use toile::cloth::build;
+use toile::cloth::{Corner, build};
 use toile::fit::{BodyIndex, Report, measure, verdict};
+use toile::geometry::ids::PieceId;
+use toile::geometry::mesh::TriMesh;
 use toile::geometry::polygon::distance_to_segment;
 use toile::pattern::{ProblemKind, curve};
 use toile::session::samples::Sample;
@@ -271,36 +273,32 @@ fn the_cloak_of_the_creature_is_held_at_its_throat_and_lies_along_its_back() {
     assert!(throat.y < nape.y - 0.2 && throat.x > nape.x, "its throat is at {throat}, its nape at {nape}");
 }
 
-/// Positions of the fall's outer edge and of the roll line, the upper edge of the stand.
-fn collar(session: &Session) -> [Vec<DVec3>; 2] {
+/// Positions along the edges whose labels start with each of `labels`, of the pieces whose names contain all of `names`.
+fn along<const N: usize>(session: &Session, names: &[&str], labels: [&str; N]) -> [Vec<DVec3>; N] {
     let snapshot = session.snapshot();
     let garment = snapshot.garment.as_ref().expect("a garment");
     let pattern = &session.document().pattern;
-    let mut parts: [BTreeSet<u32>; 2] = Default::default();
-    for corner in &garment.corners {
-        let piece = &pattern.pieces[&corner.piece];
-        let is_on = |label: &str| {
-            (0..piece.outline.len()).any(|i| {
-                let ((from, to), mut line) = (piece.edge_ends(i), Vec::new());
-                curve::flatten(from, piece.outline[i].shape, to, 1e-5, &mut line);
-                line.push(to);
-                piece.outline[i].label.as_deref().is_some_and(|own| own.starts_with(label))
-                    && line.windows(2).any(|w| distance_to_segment(corner.uv, w[0], w[1]) < 1e-4)
-            })
+    labels.map(|label| {
+        let is_on = |corner: &&Corner| {
+            let piece = &pattern.pieces[&corner.piece];
+            names.iter().all(|part| piece.name.contains(part))
+                && (0..piece.outline.len()).any(|i| {
+                    let ((from, to), mut line) = (piece.edge_ends(i), Vec::new());
+                    curve::flatten(from, piece.outline[i].shape, to, 1e-5, &mut line);
+                    line.push(to);
+                    piece.outline[i].label.as_deref().is_some_and(|own| own.starts_with(label))
+                        && line.windows(2).any(|w| distance_to_segment(corner.uv, w[0], w[1]) < 1e-4)
+                })
         };
-        let is_fall = piece.name.starts_with("collar");
-        let is_in = ["collar edge", "roll line"].map(|label| is_fall && is_on(label));
-        for (part, _) in parts.iter_mut().zip(is_in).filter(|(_, is_in)| *is_in) {
-            part.insert(corner.vertex);
-        }
-    }
-    parts.map(|part| part.iter().map(|&v| snapshot.cloth.positions[v as usize]).collect())
+        let found: BTreeSet<u32> = garment.corners.iter().filter(is_on).map(|corner| corner.vertex).collect();
+        found.into_iter().map(|v| snapshot.cloth.positions[v as usize]).collect()
+    })
 }
 
 #[test]
 fn the_collar_of_the_shirt_lies_over_its_stand_on_the_outside() {
     let session = put_on(drafted(Sample::Shirt), None, "shirt");
-    let [edge, roll] = collar(&session);
+    let [edge, roll] = along(&session, &["collar"], ["collar edge", "roll line"]);
     assert!(edge.len() > 20 && roll.len() > 20);
     let axis = roll.iter().sum::<DVec3>() / roll.len() as f64;
     let flat = |p: DVec3| DVec2::new(p.x - axis.x, p.z - axis.z);
@@ -309,6 +307,49 @@ fn the_collar_of_the_shirt_lies_over_its_stand_on_the_outside() {
         let over = *roll.iter().min_by(|a, b| apart(a).total_cmp(&apart(b))).expect("a roll line");
         assert!(over.y - p.y > 0.02, "{p} is not below the roll line at {over}");
         assert!(flat(p).length() > flat(over).length(), "{p} is not outside of the roll line at {over}");
+    }
+}
+
+/// The cloth of the pieces whose names end like this, as a surface.
+fn cloth_of(session: &Session, end: &str) -> Surface {
+    let snapshot = session.snapshot();
+    let garment = snapshot.garment.as_ref().expect("a garment");
+    let pattern = &session.document().pattern;
+    let is_of = |piece: &PieceId| pattern.pieces[piece].name.ends_with(end);
+    let triangles = garment.triangles.iter().zip(&garment.triangle_pieces);
+    let triangles = triangles.filter(|(_, piece)| is_of(piece)).map(|(vs, _)| *vs).collect();
+    Surface::new(TriMesh { positions: snapshot.cloth.positions.clone(), triangles }).expect("cloth")
+}
+
+/// The turn-up of the leg at this side lies outside of the leg all round, its free edge 4 to 5 cm above the fold.
+fn check_turned_up(session: &Session, side: &str) {
+    let [seam, edge] = along(session, &["turn-up", side], ["turn-up seam", "turn-up edge"]);
+    assert!(seam.len() > 15 && edge.len() > 15, "{side}: {} and {}", seam.len(), edge.len());
+    let middle = seam.iter().sum::<DVec3>() / seam.len() as f64;
+    let flat = |p: DVec3| DVec2::new(p.x - middle.x, p.z - middle.z);
+    let leg = cloth_of(session, &format!(" {side}"));
+    for p in edge {
+        let apart = |q: &DVec3| flat(*q).angle_to(flat(p)).abs();
+        let below = *seam.iter().min_by(|a, b| apart(a).total_cmp(&apart(b))).expect("a fold");
+        assert!((0.04..0.055).contains(&(p.y - below.y)), "{p} is not above the fold at {below}");
+        let centre = middle.with_y(p.y);
+        let outward = (p - centre).normalize();
+        assert!(leg.meets_segment([centre, p]), "{p} is not outside of the {side} leg");
+        assert!(!leg.meets_segment([p, p + outward * 0.1]), "{p} is inside the {side} leg");
+    }
+}
+
+#[test]
+fn turn_ups_lie_outside_of_the_legs_all_round() {
+    for edge_length in [0.03, 0.02] {
+        let mut project = drafted(Sample::TurnUps);
+        project.document.settings.edge_length = edge_length;
+        let session = put_on(project, None, "turn-up shorts");
+        let started = session.snapshot().started.clone().expect("starts were tried");
+        assert_eq!(started.taken().start, Start::Placement);
+        for side in ["left", "right"] {
+            check_turned_up(&session, side);
+        }
     }
 }
 

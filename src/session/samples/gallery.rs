@@ -120,7 +120,14 @@ pub fn gown() -> Garment {
 /// A bodice on wide trousers.
 pub fn jumpsuit() -> Garment {
     let bodice = Bodice { blouse: 0.02, short_shoulder: 0.025, ..fitted() };
-    let legs = Trousers { length: 1.8, hip_ease: 0.09, crotch_ease: 0.04, knee_ease: 0.15, hem_ease: 0.24 };
+    let legs = Trousers {
+        length: 1.8,
+        hip_ease: 0.09,
+        crotch_ease: 0.04,
+        knee_ease: 0.15,
+        hem_ease: 0.24,
+        turn_up: None,
+    };
     let neckline = Neckline { shape: NecklineShape::Square, width: 0.095, drops: [0.11, 0.03] };
     let design = Design {
         top: Some(Top::Cut(upper(bodice, neckline))),
@@ -132,8 +139,14 @@ pub fn jumpsuit() -> Garment {
 
 /// Narrow trousers of knitted cloth.
 pub fn leggings() -> Garment {
-    let legs =
-        Trousers { length: 1.86, hip_ease: 0.02, crotch_ease: 0.015, knee_ease: 0.025, hem_ease: 0.03 };
+    let legs = Trousers {
+        length: 1.86,
+        hip_ease: 0.02,
+        crotch_ease: 0.015,
+        knee_ease: 0.025,
+        hem_ease: 0.03,
+        turn_up: None,
+    };
     let design = Design {
         bottom: Some(Bottom::Trousers(legs)),
         waist: Waist { ease: 0.02, band: Some(0.05) },
@@ -144,9 +157,12 @@ pub fn leggings() -> Garment {
 
 /// Short trousers.
 pub fn shorts() -> Garment {
-    let legs = Trousers { length: 0.6, hip_ease: 0.09, crotch_ease: 0.035, knee_ease: 0.0, hem_ease: 0.10 };
-    let design = Design { bottom: Some(Bottom::Trousers(legs)), ..plain(Kind::Shorts) };
-    Garment { cut: drawn(design), fabric: "denim-11oz", dye: Dye::default() }
+    Garment { cut: drawn(short(0.6, 0.10, None)), fabric: "denim-11oz", dye: Dye::default() }
+}
+
+/// Trousers down to the knee, with turn-ups.
+pub fn turn_ups() -> Garment {
+    Garment { cut: drawn(short(0.97, 0.20, Some(0.05))), fabric: "denim-11oz", dye: Dye::default() }
 }
 
 /// A skirt cut from a full circle.
@@ -177,7 +193,7 @@ pub fn child_dress() -> Garment {
     let bodice = Bodice { bust_ease: 0.10, hem_ease: 0.06, ..boxy(Hem::Waist) };
     let neckline = Neckline { shape: NecklineShape::Round, width: 0.082, drops: [0.055, 0.018] };
     let sleeve =
-        Sleeve { length: 0.32, ease: 0.03, hem_ease: 0.06, puff: 1.25, cuff: Some(0.025), gather: 1.2 };
+        Sleeve { ease: 0.03, hem_ease: 0.06, puff: 1.25, cuff: Some(0.025), gather: 1.2, ..sleeve(0.32) };
     let shape = Shape::Gathered { ratio: 1.45 };
     let design = Design {
         top: Some(Top::Cut(Upper { sleeve: Some(sleeve), ..upper(bodice, neckline) })),
@@ -191,7 +207,14 @@ pub fn child_dress() -> Garment {
 
 /// Trousers with a bib, and straps over the shoulders.
 pub fn dungarees() -> Garment {
-    let legs = Trousers { length: 1.82, hip_ease: 0.10, crotch_ease: 0.045, knee_ease: 0.14, hem_ease: 0.20 };
+    let legs = Trousers {
+        length: 1.82,
+        hip_ease: 0.10,
+        crotch_ease: 0.045,
+        knee_ease: 0.14,
+        hem_ease: 0.20,
+        turn_up: None,
+    };
     let cut = Dungarees {
         legs,
         waist_ease: 0.06,
@@ -251,6 +274,12 @@ fn top(kind: Kind, upper: Upper) -> Design {
     Design { top: Some(Top::Cut(upper)), ..plain(kind) }
 }
 
+/// Short trousers down to the level `length`, with this ease at the hem and turn-ups of this height, metres.
+fn short(length: f64, hem_ease: f64, turn_up: Option<f64>) -> Design {
+    let legs = Trousers { length, hip_ease: 0.09, crotch_ease: 0.035, knee_ease: 0.0, hem_ease, turn_up };
+    Design { bottom: Some(Bottom::Trousers(legs)), ..plain(Kind::Shorts) }
+}
+
 fn skirt(kind: Kind, shape: Shape, length: f64) -> Design {
     Design { bottom: Some(Bottom::Skirt(Skirt { shape, length })), ..plain(kind) }
 }
@@ -279,7 +308,7 @@ fn fitted() -> Bodice {
 
 /// A sleeve of this share of the arm's length.
 fn sleeve(length: f64) -> Sleeve {
-    Sleeve { length, ease: 0.10, hem_ease: 0.09, puff: 1.0, cuff: None, gather: 1.0 }
+    Sleeve { length, ease: 0.10, hem_ease: 0.09, puff: 1.0, cuff: None, gather: 1.0, turn_up: None }
 }
 
 fn round() -> Neckline {

@@ -73,6 +73,8 @@ pub enum Sample {
     Coat,
     /// A shirt with a collar that turns over.
     Shirt,
+    /// Short trousers with turn-ups.
+    TurnUps,
     /// A skirt of knife pleats.
     PleatedSkirt,
     /// A cape, closed at the throat.
@@ -83,7 +85,7 @@ pub enum Sample {
 
 impl Sample {
     /// All samples, in the order of the menu.
-    pub const ALL: [Self; 24] = [
+    pub const ALL: [Self; 25] = [
         Self::Tshirt,
         Self::Skirt,
         Self::Dress,
@@ -105,6 +107,7 @@ impl Sample {
         Self::Dungarees,
         Self::Coat,
         Self::Shirt,
+        Self::TurnUps,
         Self::PleatedSkirt,
         Self::Cape,
         Self::CreatureCloak,
@@ -137,6 +140,7 @@ impl Sample {
             Self::Dungarees => "Dungarees",
             Self::Coat => "Coat",
             Self::Shirt => "Shirt",
+            Self::TurnUps => "Turn-up shorts",
             Self::PleatedSkirt => "Pleated skirt",
             Self::Cape => "Cape",
             Self::CreatureCloak => "Creature's cloak",
@@ -167,6 +171,7 @@ impl Sample {
             Self::Dungarees => "dungarees",
             Self::Coat => "coat",
             Self::Shirt => "shirt",
+            Self::TurnUps => "turn-ups",
             Self::PleatedSkirt => "pleated-skirt",
             Self::Cape => "cape",
             Self::CreatureCloak => "creature-cloak",
@@ -222,6 +227,7 @@ impl Sample {
             Self::Dungarees => Cut::Placed(gallery::dungarees),
             Self::Coat => Cut::Placed(gallery::coat),
             Self::Shirt => Cut::Placed(gallery::shirt),
+            Self::TurnUps => Cut::Placed(gallery::turn_ups),
             Self::PleatedSkirt => Cut::Placed(gallery::pleated_skirt),
             Self::Cape => Cut::Placed(gallery::cape),
             Self::CreatureCloak => Cut::Creature(creature::cloak),
