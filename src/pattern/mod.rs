@@ -8,6 +8,7 @@ pub mod cut;
 pub mod edge;
 pub mod edit;
 pub mod fastenings;
+pub mod fineness;
 pub mod grading;
 pub mod layers;
 pub mod naming;

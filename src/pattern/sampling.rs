@@ -4,6 +4,7 @@ use std::collections::BTreeMap;
 
 use crate::geometry::ids::{PieceId, SeamId};
 use crate::geometry::words::{decimal, words};
+use crate::pattern::fineness::edge_length_of;
 use crate::pattern::{CutPattern, EdgeRef, EdgeSeam, Problem, ProblemKind};
 
 /// Fraction by which the lengths of a seam's sides may differ before the seam is reported.
@@ -19,7 +20,8 @@ pub struct Sampling {
     pub seams: Vec<(SeamId, EdgeSeam)>,
 }
 
-/// Chooses intervals of about `edge_length` metres. Both sides of a seam get the number of the longer one.
+/// Chooses intervals of about `edge_length` metres, or less where a piece needs a finer mesh. Both sides of a seam get the number of
+/// the one that needs more.
 pub fn sampling(pattern: &CutPattern, edge_length: f64, problems: &mut Vec<Problem>) -> Sampling {
     let lengths: BTreeMap<PieceId, Vec<f64>> = pattern
         .pieces
@@ -27,15 +29,18 @@ pub fn sampling(pattern: &CutPattern, edge_length: f64, problems: &mut Vec<Probl
         .map(|(&id, piece)| (id, (0..piece.edge_count()).map(|i| piece.edge_length(i)).collect()))
         .collect();
     report_short_edges(pattern, &lengths, problems);
-    let count = |length: f64| ((length / edge_length).round() as usize).max(1);
-    let mut intervals: BTreeMap<PieceId, Vec<usize>> =
-        lengths.iter().map(|(&id, of_piece)| (id, of_piece.iter().map(|&l| count(l)).collect())).collect();
+    let mut intervals: BTreeMap<PieceId, Vec<usize>> = BTreeMap::new();
+    for (&id, of_piece) in &lengths {
+        let spacing = edge_length_of(&pattern.pieces[&id], edge_length);
+        let count = |length: &f64| ((length / spacing).round() as usize).max(1);
+        intervals.insert(id, of_piece.iter().map(count).collect());
+    }
     let seams = sound_seams(pattern, &lengths, problems);
     for (_, seam) in &seams {
-        let longer = seam.sides.map(|s| lengths[&s.piece][s.edge]).into_iter().fold(0.0, f64::max);
+        let most = seam.sides.map(|s| intervals[&s.piece][s.edge]).into_iter().max().unwrap_or(1);
         for side in seam.sides {
             if let Some(of_piece) = intervals.get_mut(&side.piece) {
-                of_piece[side.edge] = count(longer);
+                of_piece[side.edge] = most;
             }
         }
     }

@@ -10,6 +10,7 @@ use crate::geometry::ids::PieceId;
 use crate::geometry::polygon::{contains, distance_to_segment, first_crossing, is_inside, signed_area};
 use crate::geometry::words::{Words, words};
 use crate::pattern::chains::{Link, links};
+use crate::pattern::fineness::edge_length_of;
 use crate::pattern::sampling::Sampling;
 use crate::pattern::wrinkles::{self, Ridge};
 use crate::pattern::{CutPattern, Edge, EdgeRef, EdgeShape, InternalLine, Piece, Problem, ProblemKind};
@@ -58,13 +59,12 @@ pub struct LineEdge {
 #[derive(Clone, Debug, Default)]
 pub struct Meshes {
     made: BTreeMap<PieceId, (Key, Arc<PieceMesh>)>,
-    edge_length: f64,
     /// Number of pieces that the last update triangulated rather than reused.
     pub fresh: usize,
 }
 
-/// Key of a kept mesh: the piece and the number of intervals of each edge.
-type Key = (Arc<Piece>, Vec<usize>);
+/// Key of a kept mesh: the piece, the number of intervals of each edge, and the length of the edges inside.
+type Key = (Arc<Piece>, Vec<usize>, f64);
 
 impl Meshes {
     /// Triangulates every piece that it can; the others are reported in `problems` by name. A piece that has not
@@ -77,22 +77,24 @@ impl Meshes {
         problems: &mut Vec<Problem>,
     ) -> BTreeMap<PieceId, Arc<PieceMesh>> {
         let before = std::mem::take(&mut self.made);
-        let same_size = self.edge_length == edge_length;
-        (self.edge_length, self.fresh) = (edge_length, 0);
+        self.fresh = 0;
         for (&id, piece) in &pattern.pieces {
             let intervals = &sampling.intervals[&id];
-            let same = |(old, of_edges): &Key| {
-                of_edges == intervals && (Arc::ptr_eq(old, piece) || is_cut_alike(old, piece))
+            let spacing = edge_length_of(piece, edge_length);
+            let same = |(old, of_edges, of_inside): &Key| {
+                of_edges == intervals
+                    && *of_inside == spacing
+                    && (Arc::ptr_eq(old, piece) || is_cut_alike(old, piece))
             };
-            let kept = before.get(&id).filter(|(key, _)| same_size && same(key));
+            let kept = before.get(&id).filter(|(key, _)| same(key));
             let mesh = match kept {
                 Some((_, mesh)) => Ok(Arc::clone(mesh)),
-                None => piece_mesh(pattern, id, piece, intervals, edge_length).map(Arc::new),
+                None => piece_mesh(pattern, id, piece, intervals, spacing).map(Arc::new),
             };
             self.fresh += usize::from(kept.is_none());
             match mesh {
                 Ok(mesh) => {
-                    self.made.insert(id, ((Arc::clone(piece), intervals.clone()), mesh));
+                    self.made.insert(id, ((Arc::clone(piece), intervals.clone(), spacing), mesh));
                 }
                 Err(problem) => problems.push(problem),
             }
