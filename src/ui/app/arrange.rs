@@ -210,9 +210,7 @@ impl App {
             map: self.shell.maps.kind(),
             difference: self.shell.maps.beside().map(|beside| beside.difference),
             adapter: self.scene_pane.graphics.as_ref().map(|g| g.adapter_name().to_owned()),
-            picturing: self.shell.turn.is_some()
-                || self.shell.reporting.is_some()
-                || self.shell.tech_pack.is_some(),
+            picturing: self.shell.is_picturing(),
         }
     }
 }

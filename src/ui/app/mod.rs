@@ -325,7 +325,6 @@ impl App {
         self.ghosts = self.ghosts.take().filter(|g| g.fit(&document, self.shown().surface()));
         self.carry_selection(&document);
         self.take_comparison();
-        self.take_tech_pack();
         self.take_environment(&ctx);
         self.shell.maps.look(&snapshot, &document.fabrics, self.shell.sight.body_look);
         let now = self.situation(&ctx, &document, &snapshot);

@@ -98,6 +98,11 @@ pub struct Shell {
 }
 
 impl Shell {
+    /// Whether pictures, a fit report or a tech pack are being made.
+    pub fn is_picturing(&self) -> bool {
+        self.turn.is_some() || self.reporting.is_some() || self.tech_pack.is_some()
+    }
+
     /// Whether keys go to a dialog or page over the panes.
     pub fn is_asking(&self) -> bool {
         self.palette.is_some()
@@ -199,6 +204,7 @@ impl App {
         self.aperture_ui(ctx, asks);
         self.go_on_turning(ctx, palette, status::HEIGHT);
         self.go_on_reporting(ctx, palette, status::HEIGHT);
+        self.go_on_packing(ctx, palette, status::HEIGHT);
         drop_overlay::ui(ctx, palette, [self.pattern_pane.area, self.scene_pane.area]);
     }
 
