@@ -146,6 +146,11 @@ fn an_image_that_cannot_be_read_leaves_the_light_as_it_is() {
     std::fs::write(&words, "no image").expect("a file");
     drop_file(&mut window, &words);
     wait_for_words(&mut window, "words.hdr could not be read: it is neither PNG, JPEG nor Radiance HDR");
+    let half = folder.path().join("half.hdr");
+    let whole = std::fs::read(&garden).expect("the image");
+    std::fs::write(&half, &whole[..whole.len() / 2]).expect("a file");
+    drop_file(&mut window, &half);
+    wait_for_words(&mut window, "half.hdr could not be read: it is damaged: ");
     assert_eq!(app(&window).environment(), lit);
     assert_eq!(kept(&preferences)["lighting"]["environment"], garden.display().to_string());
 }
