@@ -86,6 +86,21 @@ fn rotate(window: &mut Window) {
     window.run_steps(4);
 }
 
+/// Types the rotation into the field beside its slider.
+fn type_rotation(window: &mut Window, degrees: &str) {
+    let rail = window.get_by_role_and_label(Role::Slider, "Rotation").rect();
+    let fields = window.query_all_by_role(Role::SpinButton).map(|field| field.rect());
+    let is_beside =
+        |field: &Rect| (field.center().y - rail.center().y).abs() < 6.0 && field.left() > rail.left();
+    let field = fields.filter(is_beside).min_by(|a, b| a.left().total_cmp(&b.left())).expect("a field");
+    drag(window, &[field.center()], PointerButton::Primary);
+    key(window, Modifiers::COMMAND, Key::A);
+    window.event(Event::Text(degrees.to_owned()));
+    window.run_steps(2);
+    key(window, Modifiers::NONE, Key::Enter);
+    window.run_steps(4);
+}
+
 pub(super) fn keep_preferences(window: &mut Window, path: &Path) {
     edit(window, |app, ctx| app.keep_preferences(ctx, path.to_owned()));
 }
@@ -115,6 +130,13 @@ fn an_environment_map_is_chosen_rotated_and_kept_until_another_light_is() {
     let lighting = &kept(&preferences)["lighting"];
     assert_eq!((&lighting["light"], &lighting["rotation"]), (&"evening".into(), &rotation.into()));
     assert_eq!(lighting["environment"], garden.display().to_string());
+    for (typed, kept_as) in [("450", 90), ("-90", 270), ("360", 360)] {
+        type_rotation(&mut window, typed);
+        assert_eq!(app(&window).environment(), Some((garden.as_path(), kept_as)), "{typed}");
+        assert_eq!(kept(&preferences)["lighting"]["rotation"], kept_as, "{typed}");
+    }
+    rotate(&mut window);
+    let rotation = app(&window).environment().expect("a light").1;
     act(&mut window, "Done");
     assert!(window.query_by_role_and_label(Role::Slider, "Rotation").is_none());
 

@@ -4,6 +4,8 @@
 use std::path::{Path, PathBuf};
 use std::sync::mpsc::{Receiver, TryRecvError, channel};
 
+use egui::SliderClamping;
+
 use crate::language::{shown, shown_in};
 use crate::render::{Harmonics, Light};
 use crate::ui::actions::Action;
@@ -48,7 +50,7 @@ impl App {
     pub fn environment(&self) -> Option<(&Path, u16)> {
         let lighting = &self.preferences.lighting;
         let path = lighting.environment.as_deref().filter(|_| self.shell.sight.environment.is_some())?;
-        Some((path, lighting.rotation.0))
+        Some((path, lighting.rotation.degrees()))
     }
 
     /// Lights the body pane by the preferences.
@@ -158,5 +160,12 @@ fn slider_ui(ui: &mut egui::Ui, name: &str, rotation: &mut Rotation) -> egui::Re
         ui.add(egui::Label::new(egui::RichText::new(name).weak()).truncate());
     });
     let label = ui.label(tr("Rotation"));
-    ui.add(slider(&mut rotation.0, 0..=Rotation::MOST).suffix("°")).labelled_by(label.id)
+    // The field takes any angle, which is wrapped once it is typed.
+    let mut degrees = i32::from(rotation.degrees());
+    let slider = slider(&mut degrees, 0..=Rotation::MOST.into()).suffix("°");
+    let slider = ui.add(slider.clamping(SliderClamping::Never).update_while_editing(false));
+    if slider.changed() {
+        *rotation = Rotation::wrapped(degrees);
+    }
+    slider.labelled_by(label.id)
 }

@@ -22,7 +22,7 @@ pub struct Lighting {
     pub rotation: Rotation,
 }
 
-/// Rotation about the vertical axis, degrees, counter-clockwise as seen from above; limited to 0..=360 when it is used.
+/// Rotation about the vertical axis, degrees, counter-clockwise as seen from above; wrapped to 0..=360 when it is used.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(transparent)]
 pub struct Rotation(pub u16);
@@ -31,9 +31,21 @@ impl Rotation {
     /// The largest rotation, degrees.
     pub const MOST: u16 = 360;
 
+    /// The rotation by `degrees`, of which whole turns are left out; 360 stays.
+    pub fn wrapped(degrees: i32) -> Self {
+        let most = i32::from(Self::MOST);
+        let within = if (0..=most).contains(&degrees) { degrees } else { degrees.rem_euclid(most) };
+        Self(within as u16)
+    }
+
+    /// The angle in degrees, 0..=360.
+    pub fn degrees(self) -> u16 {
+        Self::wrapped(self.0.into()).0
+    }
+
     /// The angle in radians.
     pub fn radians(self) -> f32 {
-        f32::from(self.0.min(Self::MOST)).to_radians()
+        f32::from(self.degrees()).to_radians()
     }
 }
 
@@ -58,8 +70,16 @@ mod tests {
         let newer = r#"{"light": "moon", "environment": "/a/garden.hdr", "rotation": -7, "more": 1}"#;
         assert_eq!(read(newer), Lighting { environment, ..Lighting::default() });
         assert_eq!(read("{}"), Lighting::default());
-        for (degrees, radians) in [(0, 0.0), (180, std::f32::consts::PI), (60_000, std::f32::consts::TAU)] {
+    }
+
+    #[test]
+    fn whole_turns_are_left_out() {
+        use std::f32::consts::{FRAC_PI_2, PI, TAU};
+        for (degrees, radians) in [(0, 0.0), (180, PI), (360, TAU), (450, FRAC_PI_2), (36_180, PI)] {
             assert!((Rotation(degrees).radians() - radians).abs() < 1e-6, "{degrees}");
+        }
+        for (typed, kept) in [(0, 0), (360, 360), (450, 90), (-90, 270), (720, 0), (i32::MIN, 232)] {
+            assert_eq!(Rotation::wrapped(typed), Rotation(kept), "{typed}");
         }
     }
 
