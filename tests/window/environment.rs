@@ -110,7 +110,7 @@ pub(super) fn kept(path: &Path) -> serde_json::Value {
 }
 
 #[test]
-fn an_environment_map_is_chosen_rotated_and_kept_until_another_light_is() {
+fn an_environment_map_is_chosen_rotated_and_kept_beside_other_lights() {
     let (folder, preferences) = folder();
     let garden = folder.path().join("garden.hdr");
     let mut window = window();
@@ -146,7 +146,21 @@ fn an_environment_map_is_chosen_rotated_and_kept_until_another_light_is() {
     from_theme(&mut next, "Studio light");
     assert_eq!(app(&next).environment(), None);
     let lighting = &kept(&preferences)["lighting"];
-    assert_eq!((&lighting["light"], &lighting["environment"]), (&"studio".into(), &serde_json::Value::Null));
+    assert_eq!((&lighting["light"], &lighting["is_put_aside"]), (&"studio".into(), &true.into()));
+    assert_eq!(lighting["environment"], garden.display().to_string(), "it is kept to go back to");
+
+    // Another start reads it only when it is wanted.
+    let mut last = super::window();
+    keep_preferences(&mut last, &preferences);
+    assert_eq!(app(&last).environment(), None);
+    for window in [&mut next, &mut last] {
+        from_theme(window, "Light by environment map");
+        wait(window, "the image", |app| app.environment() == Some((garden.as_path(), rotation)));
+        assert_eq!(kept(&preferences)["lighting"].get("is_put_aside"), None);
+        from_theme(window, "Light by environment map");
+        assert_eq!(app(window).environment(), None);
+        assert_eq!(kept(&preferences)["lighting"]["light"], "studio");
+    }
 }
 
 #[test]

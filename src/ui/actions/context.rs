@@ -117,6 +117,8 @@ pub struct FrameContext {
     pub recent: Arc<Vec<RecentFile>>,
     /// Display options of body and cloth.
     pub sight: Sight,
+    /// Whether there is an environment map to go back to.
+    pub keeps_environment: bool,
     /// Whether the bar that rotates the environment map is shown.
     pub rotating: bool,
     /// Whether the bar of the aperture is shown.
@@ -187,6 +189,12 @@ impl FrameContext {
             }
             Need::Pins => (self.pins > 0, "There are no pins"),
             Need::Comparison => (self.difference.is_some(), "Nothing is shown beside: compare first"),
+            Need::KeptEnvironment => {
+                (self.keeps_environment, "No environment map is chosen: choose one first")
+            }
+            Need::EnvironmentMap if self.keeps_environment => {
+                (self.sight.environment.is_some(), "The environment map is put aside: light by it first")
+            }
             Need::EnvironmentMap => {
                 (self.sight.environment.is_some(), "No environment map is chosen: choose one first")
             }
@@ -260,7 +268,7 @@ impl FrameContext {
             Action::ToggleSheer => self.sight.sheer,
             Action::ToggleXray => self.sight.xray,
             Action::Light(light) => self.sight.light == light && self.sight.environment.is_none(),
-            Action::EnvironmentMap => self.sight.environment.is_some(),
+            Action::ToggleEnvironment => self.sight.environment.is_some(),
             Action::RotateEnvironment => self.rotating,
             Action::ToggleDepthOfField => self.sight.lens.is_some(),
             Action::SetAperture => self.sets_aperture,

@@ -86,6 +86,8 @@ pub enum Need {
     Pins,
     /// Another garment is shown beside.
     Comparison,
+    /// An environment map is chosen; it may be put aside.
+    KeptEnvironment,
     /// An environment map lights the scene.
     EnvironmentMap,
     /// What is out of focus is blurred.

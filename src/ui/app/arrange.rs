@@ -204,6 +204,7 @@ impl App {
             keymap: Arc::clone(&self.preferences.keymap),
             recent: Arc::clone(self.shell.recent.files()),
             sight: self.shell.sight,
+            keeps_environment: self.preferences.lighting.environment.is_some(),
             rotating: self.shell.environment.is_rotated,
             sets_aperture: self.shell.sets_aperture,
             drawer: self.shell.drawer,

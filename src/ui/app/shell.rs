@@ -145,6 +145,7 @@ impl App {
             Action::ToggleSheer => self.shell.sight.sheer = !self.shell.sight.sheer,
             Action::ToggleXray => self.shell.sight.xray = !self.shell.sight.xray,
             Action::Light(light) => self.choose_light(ctx, light),
+            Action::ToggleEnvironment => self.toggle_environment(ctx),
             Action::RotateEnvironment => {
                 self.shell.environment.is_rotated = !self.shell.environment.is_rotated;
                 self.shell.sets_aperture &= !self.shell.environment.is_rotated;

@@ -1,6 +1,6 @@
 //! The light of the body pane and of its pictures.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use serde::{Deserialize, Serialize};
 
@@ -17,6 +17,9 @@ pub struct Lighting {
     /// The image that lights the scene from all sides in place of the light's surroundings.
     #[serde(deserialize_with = "or_default", skip_serializing_if = "has_no_text")]
     pub environment: Option<PathBuf>,
+    /// Whether that image is put aside, to go back to: the light alone is used.
+    #[serde(deserialize_with = "or_default", skip_serializing_if = "std::ops::Not::not")]
+    pub is_put_aside: bool,
     /// Rotation of the environment map.
     #[serde(deserialize_with = "or_default")]
     pub rotation: Rotation,
@@ -26,6 +29,13 @@ pub struct Lighting {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(transparent)]
 pub struct Rotation(pub u16);
+
+impl Lighting {
+    /// The image that lights the scene; None where the light alone does.
+    pub fn environment_used(&self) -> Option<&Path> {
+        self.environment.as_deref().filter(|_| !self.is_put_aside)
+    }
+}
 
 impl Rotation {
     /// The largest rotation, degrees.
@@ -65,11 +75,20 @@ mod tests {
         let all = r#"{"light": "evening", "environment": "/a/garden.hdr", "rotation": 90}"#;
         assert_eq!(
             read(all),
-            Lighting { light: Light::Evening, environment: environment.clone(), rotation: Rotation(90) }
+            Lighting {
+                light: Light::Evening,
+                environment: environment.clone(),
+                is_put_aside: false,
+                rotation: Rotation(90)
+            }
         );
         let newer = r#"{"light": "moon", "environment": "/a/garden.hdr", "rotation": -7, "more": 1}"#;
         assert_eq!(read(newer), Lighting { environment, ..Lighting::default() });
         assert_eq!(read("{}"), Lighting::default());
+        let aside = read(r#"{"environment": "/a/garden.hdr", "is_put_aside": true}"#);
+        assert!(aside.environment.is_some() && aside.environment_used().is_none());
+        let text = serde_json::to_string(&aside).expect("text");
+        assert_eq!(read(&text), aside);
     }
 
     #[test]

@@ -179,6 +179,14 @@ pub const ROWS: &[Row] = &[
     .in_demos(),
     row(
         "View › Theme",
+        Action::ToggleEnvironment,
+        "Light by environment map",
+        "Light the scene by the environment map that was chosen last, or by the light alone",
+    )
+    .needs(&[Need::KeptEnvironment])
+    .in_demos(),
+    row(
+        "View › Theme",
         Action::RotateEnvironment,
         "Rotate environment map",
         "Turn the light of the environment map about the vertical axis",
