@@ -44,12 +44,17 @@ fn drop_file(window: &mut Window, path: &Path) {
 
 /// Chooses an entry of View › Theme.
 pub(super) fn from_theme(window: &mut Window, entry: &str) {
+    open_theme(window);
+    act(window, entry);
+}
+
+/// Opens View › Theme.
+pub(super) fn open_theme(window: &mut Window) {
     act(window, "View");
     window.get_by_label_contains("Theme").scroll_to_me();
     window.run_steps(30);
     window.get_by_label_contains("Theme").click();
     window.run_steps(4);
-    act(window, entry);
 }
 
 /// Chooses the image at `path` from the menu. False where the desktop has a dialog of its own.

@@ -198,6 +198,10 @@ impl FrameContext {
             Need::EnvironmentMap => {
                 (self.sight.environment.is_some(), "No environment map is chosen: choose one first")
             }
+            Need::Perspective => (
+                !self.parallel,
+                "In parallel projection everything is sharp: leave it first (View › Parallel projection)",
+            ),
             Need::DepthOfField => (self.sight.lens.is_some(), "Depth of field is off: switch it on first"),
             Need::Selection => (self.selected.is_some() || picked.deletable, "Nothing is selected"),
             Need::PickedPiece => (picked.pieces > 0, "No piece is selected"),

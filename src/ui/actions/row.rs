@@ -90,6 +90,8 @@ pub enum Need {
     KeptEnvironment,
     /// An environment map lights the scene.
     EnvironmentMap,
+    /// The projection is perspective.
+    Perspective,
     /// What is out of focus is blurred.
     DepthOfField,
     /// Something that can be deleted is selected.

@@ -206,6 +206,7 @@ pub const ROWS: &[Row] = &[
         "Depth of field",
         "Blur what is nearer or farther than the surface in the middle of the picture, as a lens does",
     )
+    .needs(&[Need::Perspective])
     .in_demos(),
     row(
         "View › Theme",
@@ -213,6 +214,6 @@ pub const ROWS: &[Row] = &[
         "Set aperture",
         "Choose the f-number: the smaller it is, the stronger the blur",
     )
-    .needs(&[Need::DepthOfField])
+    .needs(&[Need::Perspective, Need::DepthOfField])
     .in_demos(),
 ];
