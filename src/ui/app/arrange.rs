@@ -7,11 +7,11 @@ use egui::{Frame, Margin, Panel};
 use crate::pattern::Pattern;
 use crate::session::Document;
 use crate::sim::Snapshot;
-use crate::ui::actions::Tool;
 use crate::ui::actions::asks::Asks;
 use crate::ui::actions::context::FrameContext;
 use crate::ui::actions::layout::{Layout, Panes};
 use crate::ui::actions::picked::Picked;
+use crate::ui::actions::{PATTERN_TOOLS, Tool};
 use crate::ui::app::App;
 use crate::ui::body_pane;
 use crate::ui::language::{said, say, tr};
@@ -53,7 +53,8 @@ impl App {
             self.shell.first_tool = toolbar::toolbar_ui(ui, now, palette, asks);
         });
         Panel::bottom("status").frame(thin).exact_size(status::HEIGHT).show(ui, |ui| {
-            status::status_ui(ui, now, &self.hint(document, now, palette), palette);
+            let hint = self.hint(ui.ctx(), document, now, palette);
+            status::status_ui(ui, now, &hint, palette);
         });
         // Here, since the table may be hidden.
         self.pattern_pane.nests.update(&document.pattern);
@@ -110,7 +111,13 @@ impl App {
         }
     }
 
-    fn hint(&self, document: &Document, now: &FrameContext, palette: &Palette) -> String {
+    fn hint(
+        &self,
+        ctx: &egui::Context,
+        document: &Document,
+        now: &FrameContext,
+        palette: &Palette,
+    ) -> String {
         let mouse = now.mouse;
         let next = |painted: usize| painted + 1;
         if self.demo.is_some() {
@@ -126,12 +133,13 @@ impl App {
         } else if self.scene_pane.hovered {
             let words =
                 body_pane::hint(self.tool, mouse, self.laser, now.dressed, next(document.marks.body.len()));
-            match now.highlight.and_then(|item| edge_words(&document.pattern, item, now.unit)) {
-                Some(edge) => format!("{edge} · {words}"),
-                None => words,
-            }
+            let edge = now.highlight.and_then(|item| edge_words(&document.pattern, item, now.unit));
+            // A tool of the table does nothing to the cloth.
+            let is_of_table = PATTERN_TOOLS.iter().any(|group| group.contains(&self.tool));
+            let next = (now.dressed && is_of_table).then(|| status::next_step(ctx, now));
+            edge.into_iter().chain(next).chain([words]).collect::<Vec<_>>().join(" · ")
         } else {
-            tr("Paint a mark on a piece and one on the body where it should lie, then press Wrap.").to_owned()
+            status::next_step(ctx, now)
         }
     }
 
