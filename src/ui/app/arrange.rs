@@ -128,6 +128,8 @@ impl App {
             words
         } else if let Some(words) = self.scene_pane.hint_of_line(mouse) {
             words
+        } else if let Some(words) = self.pattern_pane.hint_by_keys(ctx).filter(|_| !self.scene_pane.hovered) {
+            words.to_owned()
         } else if self.pattern_pane.hovered || self.pattern_pane.is_busy() {
             self.pattern_pane.hint(&self.laid(document, now, palette))
         } else if self.scene_pane.hovered {

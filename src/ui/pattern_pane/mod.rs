@@ -216,6 +216,10 @@ impl PatternPane {
             drawing.painter.rect_stroke(pane, 0.0, ring, egui::StrokeKind::Inside);
         }
         names::publish(ui, &table);
+        let by_keys = response.has_focus().then(|| tool.selected_by_keys(&table).or(laid.selection.only()));
+        if let Some(item) = by_keys.flatten() {
+            names::announce(ui, &table, item);
+        }
         let mut options = self.options;
         options::options_ui(ui, &table, &mut options, asks);
         let dragged = rulers.ui(ui, &table.view, pane, laid.unit, laid.palette, at);
@@ -260,6 +264,12 @@ impl PatternPane {
             (Some((_, tool)), Some(pane)) => format!("{} · {view}", tool.hint(&self.table(laid, pane))),
             _ => view,
         }
+    }
+
+    /// The hint of the pane for the status bar while it has the keyboard and not the pointer; None: that of the pointer.
+    pub fn hint_by_keys(&self, ctx: &egui::Context) -> Option<&'static str> {
+        let is_by_keys = self.has_focus(ctx) && !self.hovered && !self.is_busy();
+        self.tool.as_ref().filter(|_| is_by_keys).and_then(|(_, tool)| tool.hint_by_keys())
     }
 
     fn table<'a>(&'a self, laid: &'a Laid<'a>, pane: Rect) -> Table<'a> {
@@ -375,6 +385,9 @@ impl PatternPane {
             let held = input.held;
             let tabs = ui.input(|i| i.num_presses(Key::Tab) as i32);
             input.next = if held.shift { -tabs } else { tabs };
+            let pressed = |key| i32::from(ui.input(|i| i.key_pressed(key)));
+            input.next_kind = pressed(Key::PageDown) - pressed(Key::PageUp);
+            input.keeps = !tool.draws() && held.is_none() && pressed(Key::Space) > 0;
         }
         self.move_cursor(ui, response, pane, tool, &mut input);
         input
