@@ -9,6 +9,7 @@ mod entry;
 mod guides;
 mod input;
 pub(in crate::ui) mod kept;
+mod labels;
 pub mod line_points;
 mod names;
 pub(in crate::ui) mod nests;
@@ -46,6 +47,7 @@ use entry::Entry;
 use guides::Guides;
 use input::Input;
 pub use kept::Options;
+use labels::Labels;
 pub use names::seam_words;
 use nests::{Nests, SizeView};
 use pictures::Pictures;
@@ -495,7 +497,10 @@ fn draw_table(drawing: &Drawing<'_>, table: &Table<'_>, new_guide: Option<&Guide
     drawing.pieces(table);
     drawing.nests(table);
     drawing.seams(table);
-    drawing.trims(table);
+    let numbers = drawing.numbers(pattern, &document.marks);
+    let mut labels = Labels::beside(numbers);
+    let names = drawing.placed_names(table, &mut labels);
+    drawing.trims(table, &mut labels);
     drawing.edges_standing_out(table);
     drawing.spot(table);
     let near = at.and_then(|at| table.mark_at(table.at(at)));
@@ -503,7 +508,7 @@ fn draw_table(drawing: &Drawing<'_>, table: &Table<'_>, new_guide: Option<&Guide
     if let Some(ghosts) = ghosts {
         drawing.ghosts(pattern, ghosts);
     }
-    drawing.names(table);
+    drawing.names(names);
     if tool == Tool::Sew {
         drawing.badges(table);
     }
