@@ -13,6 +13,7 @@ use crate::ui::actions::layout::{Layout, Panes};
 use crate::ui::actions::picked::Picked;
 use crate::ui::actions::{PATTERN_TOOLS, Tool};
 use crate::ui::app::App;
+use crate::ui::app::focus_round::Bar;
 use crate::ui::body_pane;
 use crate::ui::language::{said, say, tr};
 use crate::ui::look::theme::Palette;
@@ -45,13 +46,13 @@ impl App {
         let (thin, thick) = (bar(ui, 3), bar(ui, 6));
         let surface = self.shown().surface().cloned();
         let lost = self.shown().problems().to_vec();
-        Panel::top("menu")
-            .frame(thin)
-            .show_separator_line(false)
-            .show(ui, |ui| menu::menu_bar_ui(ui, now, asks));
-        Panel::top("tools").frame(thick).show(ui, |ui| {
+        let menu = Panel::top("menu").frame(thin).show_separator_line(false);
+        let menu = menu.show(ui, |ui| menu::menu_bar_ui(ui, now, asks));
+        self.shell.round.show(Bar::Menu, menu.response.rect);
+        let tools = Panel::top("tools").frame(thick).show(ui, |ui| {
             self.shell.first_tool = toolbar::toolbar_ui(ui, now, palette, asks);
         });
+        self.shell.round.show(Bar::Toolbar, tools.response.rect);
         Panel::bottom("status").frame(thin).exact_size(status::HEIGHT).show(ui, |ui| {
             let hint = self.hint(ui.ctx(), document, now, palette);
             status::status_ui(ui, now, &hint, palette);
@@ -61,7 +62,8 @@ impl App {
         self.shell.first_of_panel = None;
         self.shell.pose.animation.play(ui.ctx(), document, now, asks);
         if self.show_panel {
-            Panel::right("side").default_size(256.0).size_range(220.0..=420.0).frame(thick).show(ui, |ui| {
+            let side = Panel::right("side").default_size(256.0).size_range(220.0..=420.0).frame(thick);
+            let side = side.show(ui, |ui| {
                 let told = PanelContext {
                     document,
                     surface: surface.as_ref(),
@@ -81,6 +83,7 @@ impl App {
                 let first = side::side_panel_ui(ui, &told, marks, pattern, of_body, asks);
                 self.shell.first_of_panel = first;
             });
+            self.shell.round.show(Bar::Side, side.response.rect);
         }
         self.drawer_panel(ui, now, palette, asks);
         self.panes(ui, document, snapshot, now, palette, asks);

@@ -10,6 +10,7 @@ pub(in crate::ui) mod drawer;
 pub(in crate::ui) mod dressing;
 pub(in crate::ui) mod environment;
 pub(in crate::ui) mod exchange;
+pub(in crate::ui) mod focus_round;
 pub(in crate::ui) mod keyboard;
 pub(in crate::ui) mod marker_page;
 mod marker_preview;
@@ -331,6 +332,7 @@ impl App {
         self.scheme = Scheme::of(self.preferences.theme, ctx.theme());
         let palette = Palette::of(self.scheme);
         let mut asks = Asks::new();
+        self.escape_from_bar(&ctx, &now);
         self.keys(&ctx, &now, &mut asks);
         if self.shell.start.is_some() {
             self.start_page(ui, &now, &palette, &mut asks);
@@ -351,6 +353,7 @@ impl App {
             self.carry_out(&ctx, ask);
         }
         self.dialogs(&ctx);
+        self.tend_focus(&ctx);
         self.dropped_files(&ctx);
         self.guard_closing(&ctx);
         self.set_title(&ctx);

@@ -12,6 +12,7 @@ use crate::ui::actions::sight::Sight;
 use crate::ui::app::App;
 use crate::ui::app::all_sizes::AllSizes;
 use crate::ui::app::environment::EnvironmentMap;
+use crate::ui::app::focus_round::FocusRound;
 use crate::ui::app::marker_page::MarkerPage;
 use crate::ui::app::picture_page::PicturePage;
 use crate::ui::app::reporting::Reporting;
@@ -80,6 +81,8 @@ pub struct Shell {
     pub environment: EnvironmentMap,
     /// Whether the bar of the aperture is shown.
     pub sets_aperture: bool,
+    /// Where the keyboard was and can go.
+    pub round: FocusRound,
     /// First widgets of the toolbar and of the side panel, which get the keyboard focus.
     pub first_tool: Option<egui::Id>,
     pub first_of_panel: Option<egui::Id>,

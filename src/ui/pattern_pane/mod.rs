@@ -88,6 +88,8 @@ pub struct PatternPane {
     pub hovered: bool,
     /// Area of the pane on the screen in the last frame.
     pub area: Option<Rect>,
+    /// Areas of the strip of tools and of the bar with options of the tool in the last frame.
+    pub bars: [Option<Rect>; 2],
     /// Id of the pane's widget, for the keyboard focus.
     pub id: Option<egui::Id>,
     /// Response of the pane in this frame, for the context menu.
@@ -223,10 +225,10 @@ impl PatternPane {
             names::announce(ui, &table, item);
         }
         let mut options = self.options;
-        options::options_ui(ui, &table, &mut options, asks);
+        let options_bar = options::options_ui(ui, &table, &mut options, asks);
         let dragged = rulers.ui(ui, &table.view, pane, laid.unit, laid.palette, at);
         self.take_entry(ui, laid, pane, &mut *tool, asks);
-        (self.response, self.options) = (Some(response), options);
+        (self.response, self.options, self.bars) = (Some(response), options, [Some(strip), options_bar]);
         (self.under, self.tool, self.value) = (under, Some((laid.tool, tool)), value);
         self.guides.take(&self.view, pane, dragged);
     }

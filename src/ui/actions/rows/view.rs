@@ -146,7 +146,7 @@ pub const ROWS: &[Row] = &[
         "View",
         Action::NextPane,
         "Next pane",
-        "Give the keyboard to the pattern, the body, the side panel or the tools",
+        "Give the keyboard to the next pane or bar: pattern, body, side panel, tools, menus",
     )
     .keys(&[key(Key::F6)])
     .in_demos(),

@@ -357,7 +357,7 @@ impl PatternTool for Points {
 
     fn hint_by_keys(&self) -> Option<&'static str> {
         Some(tr(
-            "Tab: next point · Page down: edges, lines, seams · Space: keep it, to select more · Arrows: move · F6: side panel, with what is sewn on there",
+            "Tab: next point · Page down: edges, lines, seams · Space: keep it, to select more · Arrows: move · F6: on to the side panel, with what is sewn on there",
         ))
     }
 
