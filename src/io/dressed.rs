@@ -4,6 +4,7 @@ use glam::{DVec2, DVec3};
 
 use crate::cloth::{ClothState, Corner, Garment, TrimPart};
 use crate::geometry::ids::PieceId;
+use crate::geometry::mesh::vertex_normals;
 use crate::io::materials::{ClothMaterial, Colours, Textures};
 use crate::pattern::Pattern;
 
@@ -47,6 +48,40 @@ impl Dressed<'_> {
     }
 }
 
+/// Cosine of the angle between the normal of a vertex and that of one side of its seam beyond which the seam is a sharp fold, as in
+/// src/render/buffers.rs.
+const SHARP: f64 = 0.5;
+
+/// Area-weighted unit normals of cloth; zero where no triangle is on the body.
+#[derive(Clone, Debug)]
+pub(super) struct Normals {
+    /// Of each vertex of the garment, over all sides of its seams.
+    pub vertices: Vec<DVec3>,
+    /// Of each flat corner: that of its vertex, but that of its own side where the seam is folded sharply, as a turn-up is. There
+    /// the normals of both sides cancel each other out.
+    pub corners: Vec<DVec3>,
+}
+
+impl Normals {
+    /// The normals at `positions` of the triangles with the indices `laid`.
+    pub fn new(garment: &Garment, positions: &[DVec3], laid: &[usize]) -> Self {
+        let triangles: Vec<[u32; 3]> = laid.iter().map(|&t| garment.triangles[t]).collect();
+        let vertices = vertex_normals(positions, &triangles);
+        let mut own = vec![DVec3::ZERO; garment.corners.len()];
+        for &t in laid {
+            let [a, b, c] = garment.triangles[t].map(|v| positions[v as usize]);
+            let normal = (b - a).cross(c - a);
+            garment.triangle_corners[t].iter().for_each(|&corner| own[corner as usize] += normal);
+        }
+        let of_corner = |(corner, own): (&Corner, DVec3)| {
+            let common = vertices[corner.vertex as usize];
+            own.try_normalize().filter(|own| own.dot(common) < SHARP).unwrap_or(common)
+        };
+        let corners = garment.corners.iter().zip(own).map(of_corner).collect();
+        Self { vertices, corners }
+    }
+}
+
 /// Vertex positions of the garment and the body in one frame.
 #[derive(Clone, Debug)]
 pub struct Frame {
@@ -69,12 +104,12 @@ pub(super) struct PieceArrays {
 }
 
 impl PieceArrays {
-    /// The arrays of `piece` with its `triangles`; `normals` are those of all vertices of the garment.
+    /// The arrays of `piece` with its `triangles`; `normals` are those of the whole garment.
     pub fn new(
         dressed: &Dressed<'_>,
         piece: PieceId,
         triangles: impl Iterator<Item = usize>,
-        normals: &[DVec3],
+        normals: &Normals,
         textures: Option<&Textures>,
     ) -> Self {
         let Dressed { garment, state, pattern, trims: _ } = dressed;
@@ -90,7 +125,7 @@ impl PieceArrays {
                 .map(|map| corners.iter().map(|c| map.transform_point2(c.uv)).collect())
                 .unwrap_or_default(),
             positions: corners.iter().map(|c| state.positions[c.vertex as usize]).collect(),
-            normals: corners.iter().map(|c| normals[c.vertex as usize]).collect(),
+            normals: normals.corners[first..first + corners.len()].to_vec(),
             uv: corners.iter().map(|c| uv(c.uv)).collect(),
             triangles: triangles.map(|t| garment.triangle_corners[t].map(|c| c - first as u32)).collect(),
         }
@@ -106,9 +141,9 @@ pub(super) struct TrimArrays {
 }
 
 impl TrimArrays {
-    /// The arrays of `part` on `dressed`; `normals` are those of all vertices of the garment.
-    pub fn new(dressed: &Dressed<'_>, part: &TrimPart, normals: &[DVec3]) -> Self {
-        let solid = part.solid(dressed.garment, dressed.state, normals);
+    /// The arrays of `part` on `dressed`; `normals` are those of the whole garment.
+    pub fn new(dressed: &Dressed<'_>, part: &TrimPart, normals: &Normals) -> Self {
+        let solid = part.solid(dressed.garment, dressed.state, &normals.vertices);
         Self {
             positions: solid.positions.iter().map(|p| p.as_dvec3()).collect(),
             normals: solid.normals.iter().map(|n| n.as_dvec3()).collect(),
@@ -124,8 +159,13 @@ pub(super) mod tests {
     use crate::cloth::TrimShapes;
     use crate::pattern::{Button, EdgeRef, Piece, PiecePoint, Piping, Seam, Topstitch};
 
-    /// Two squares sewn along one edge, bent at the seam.
+    /// Two squares sewn along one edge, bent at the seam by 90 degrees.
     pub(in crate::io) fn two_squares() -> (Pattern, Garment, ClothState) {
+        bent_squares(90.0)
+    }
+
+    /// Two squares sewn along one edge; the second is turned back by `angle` degrees at the seam, over the back of the first.
+    pub(in crate::io) fn bent_squares(angle: f64) -> (Pattern, Garment, ClothState) {
         let square = [DVec2::ZERO, DVec2::X * 0.1, DVec2::splat(0.1), DVec2::Y * 0.1];
         let mut pattern = Pattern::default();
         let ids = ["a", "b"].map(|name| pattern.add_piece(Piece::polygon(name, &square)));
@@ -133,10 +173,12 @@ pub(super) mod tests {
         pattern.add_seam(Seam::of_edges(sides, false));
         let (garment, problems) = crate::cloth::build(&pattern, 0.03);
         assert!(problems.is_empty(), "{problems:?}");
+        let (sin, cos) = angle.to_radians().sin_cos();
         let mut positions = vec![DVec3::ZERO; garment.vertex_count];
         for c in &garment.corners {
+            let DVec2 { x, y } = c.uv;
             positions[c.vertex as usize] =
-                if c.piece == ids[0] { c.uv.extend(0.0) } else { DVec3::new(0.1, c.uv.y, -c.uv.x) };
+                if c.piece == ids[0] { c.uv.extend(0.0) } else { DVec3::new(0.1 + x * cos, y, -x * sin) };
         }
         let mapped = vec![true; garment.vertex_count];
         (pattern, garment, ClothState { positions, mapped })
@@ -164,6 +206,39 @@ pub(super) mod tests {
         let state = ClothState { positions, mapped: vec![true; garment.vertex_count] };
         let trims = TrimParts::new(&TrimShapes::new(&garment, &pattern), &garment, &state, usize::MAX);
         (pattern, garment, state, trims.parts)
+    }
+
+    #[test]
+    fn the_sides_of_a_seam_that_is_folded_sharply_have_normals_of_their_own() {
+        // Up to 60 degrees no side is far enough from the common normal, beyond 120 at least one is.
+        for (angle, is_parted) in [(0.0, false), (60.0, false), (125.0, true), (175.0, true)] {
+            let (_, garment, state) = bent_squares(angle);
+            let all: Vec<usize> = (0..garment.triangles.len()).collect();
+            let normals = Normals::new(&garment, &state.positions, &all);
+            let (sin, cos) = f64::to_radians(angle).sin_cos();
+            let first = garment.corners[0].piece;
+            let (_, pairs) = &garment.seam_pairs[0];
+            let on_seam: Vec<usize> = pairs.iter().flatten().map(|&c| c as usize).collect();
+            for (i, (corner, normal)) in garment.corners.iter().zip(&normals.corners).enumerate() {
+                let face = if corner.piece == first { DVec3::Z } else { DVec3::new(sin, 0.0, cos) };
+                assert!(normal.dot(face) > SHARP - 1e-9, "{angle}: {normal} on {face}");
+                assert!(on_seam.contains(&i) || normal.distance(face) < 1e-9, "{angle}: {normal} on {face}");
+            }
+            assert!(pairs.len() > 3);
+            for [a, b] in pairs.iter().map(|pair| pair.map(|c| normals.corners[c as usize])) {
+                assert_eq!(a.dot(b) < SHARP, is_parted, "{angle}: {a} {b}");
+                assert_eq!(a != b, is_parted, "{angle}: {a} {b}");
+            }
+        }
+    }
+
+    #[test]
+    fn cloth_that_is_not_laid_has_no_normals() {
+        let (_, garment, mut state) = two_squares();
+        state.positions.fill(DVec3::NAN);
+        let normals = Normals::new(&garment, &state.positions, &[]);
+        assert!(normals.corners.iter().chain(&normals.vertices).all(|n| *n == DVec3::ZERO));
+        assert_eq!(normals.corners.len(), garment.corners.len());
     }
 
     #[test]

@@ -17,9 +17,9 @@ use gltf_json::{Accessor, Asset, Index, Node, Root, Scene, Texture};
 use images::Map;
 
 use crate::geometry::ids::PieceId;
-use crate::geometry::mesh::{TriMesh, vertex_normals};
+use crate::geometry::mesh::TriMesh;
 use crate::geometry::words::{Words, words};
-use crate::io::dressed::{Dressed, PieceArrays, TrimArrays};
+use crate::io::dressed::{Dressed, Normals, PieceArrays, TrimArrays};
 use crate::io::materials::{ClothMaterial, ClothTextures, Colours, ROUGHNESS, Textures};
 
 /// Why no file was written.
@@ -92,8 +92,7 @@ impl Builder {
     fn garment(&mut self, dressed: &Dressed<'_>, colours: &Colours) {
         let Dressed { garment, state, .. } = dressed;
         let triangles = dressed.laid();
-        let on_body: Vec<[u32; 3]> = triangles.iter().map(|&t| garment.triangles[t]).collect();
-        let normals = vertex_normals(&state.positions, &on_body);
+        let normals = Normals::new(garment, &state.positions, &triangles);
         for (id, name) in &garment.pieces {
             let own = triangles.iter().copied().filter(|&t| garment.triangle_pieces[t] == *id);
             let piece = PieceArrays::new(dressed, *id, own, &normals, colours.textures.as_deref());
