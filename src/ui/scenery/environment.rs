@@ -7,6 +7,6 @@ use crate::render::{Harmonics, MEAN_LIGHT};
 /// The light of an environment map, the bytes of an image file: as bright as the studio's, its middle before the body. The error is
 /// a message without the file's name.
 pub fn light_of(bytes: &[u8]) -> Result<Harmonics, Words> {
-    let light = Harmonics::of_image(&environment::read(bytes)?).with_mean(MEAN_LIGHT);
+    let light = Harmonics::of_image(&environment::read(bytes)?).without_ringing().with_mean(MEAN_LIGHT);
     light.ok_or_else(|| words!("it is black: no light comes from it"))
 }
