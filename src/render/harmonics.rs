@@ -2,6 +2,7 @@
 //! reflects (Ramamoorthi and Hanrahan, "An efficient representation for irradiance environment maps", SIGGRAPH 2001).
 
 use std::f64::consts::{PI, TAU};
+use std::ops::Range;
 
 use glam::{DMat3, DVec3, Vec3};
 use image::Rgb32FImage;
@@ -67,22 +68,28 @@ impl Harmonics {
     /// +z and whose right half is towards -x, as someone sees it who stands in it with the back to -z.
     pub fn of_image(image: &Rgb32FImage) -> Self {
         let mut sum = [DVec3::ZERO; 9];
-        let (width, height) = (f64::from(image.width()), f64::from(image.height()));
-        for (column, row, pixel) in image.enumerate_pixels() {
-            let [upper, lower] = [0.0, 1.0].map(|below| (PI * (f64::from(row) + below) / height).cos());
-            let turn = TAU * ((f64::from(column) + 0.5) / width - 0.5);
-            let y = (upper + lower) / 2.0;
-            let away = (1.0 - y * y).max(0.0).sqrt();
-            let direction = DVec3::new(-away * turn.sin(), y, away * turn.cos());
-            let solid_angle = (upper - lower) * TAU / width;
-            add(&mut sum, direction, Vec3::from(pixel.0).as_dvec3() * solid_angle);
+        for pixel in pixels(image, 0..image.height()) {
+            add(&mut sum, pixel.direction, pixel.light * pixel.solid_angle);
         }
         Self(sum.map(|c| c.as_vec3()))
     }
 
+    /// The light without `others`: unit directions, and the light from each, radiance times solid angle.
+    #[must_use]
+    pub(super) fn without(&self, others: impl Iterator<Item = (DVec3, DVec3)>) -> Self {
+        let mut sum = self.0.map(|c| c.as_dvec3());
+        others.for_each(|(direction, light)| add(&mut sum, direction, -light));
+        Self(sum.map(|c| c.as_vec3()))
+    }
+
+    /// Mean over all directions, linear luminance.
+    pub(super) fn mean(&self) -> f32 {
+        luminance(self.0[0] * NORMS[0] as f32)
+    }
+
     /// The same light, of which the mean over all directions is as bright as `mean` (linear luminance); None if there is no light.
     pub fn with_mean(self, mean: f32) -> Option<Self> {
-        let own = luminance(self.0[0] * NORMS[0] as f32);
+        let own = self.mean();
         let factor = mean / own;
         (own > 0.0 && factor.is_finite()).then(|| Self(self.0.map(|c| c * factor)))
     }
@@ -152,6 +159,36 @@ impl Harmonics {
     /// white surface reflects: the irradiance over π.
     pub(super) fn reflected(&self) -> [Vec3; 9] {
         std::array::from_fn(|i| self.0[i] * (COSINE[ORDER[i]] / PI * NORMS[i]) as f32)
+    }
+}
+
+/// A pixel of an image of all directions.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Pixel {
+    /// Unit vector towards its middle.
+    pub direction: DVec3,
+    /// Steradians.
+    pub solid_angle: f64,
+    /// Its radiance, linear RGB.
+    pub light: DVec3,
+}
+
+/// The pixels in `rows` of an equirectangular image, placed as by [`Harmonics::of_image`].
+pub(super) fn pixels(image: &Rgb32FImage, rows: Range<u32>) -> impl Iterator<Item = Pixel> {
+    rows.flat_map(move |row| (0..image.width()).map(move |column| pixel(image, column, row)))
+}
+
+/// The pixel in a column and a row of an equirectangular image, placed as by [`Harmonics::of_image`].
+pub(super) fn pixel(image: &Rgb32FImage, column: u32, row: u32) -> Pixel {
+    let (width, height) = (f64::from(image.width()), f64::from(image.height()));
+    let [upper, lower] = [0.0, 1.0].map(|below| (PI * (f64::from(row) + below) / height).cos());
+    let turn = TAU * ((f64::from(column) + 0.5) / width - 0.5);
+    let y = (upper + lower) / 2.0;
+    let away = (1.0 - y * y).max(0.0).sqrt();
+    Pixel {
+        direction: DVec3::new(-away * turn.sin(), y, away * turn.cos()),
+        solid_angle: (upper - lower) * TAU / width,
+        light: Vec3::from(image.get_pixel(column, row).0).as_dvec3(),
     }
 }
 

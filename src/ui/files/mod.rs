@@ -23,7 +23,7 @@ use crate::io::scale::{DrawingUnit, ScaleQuestion};
 use crate::io::{FILE_BYTES, bvh, gltf};
 use crate::marker::{FinishedMarker, MarkerFormat};
 use crate::pattern::Pattern;
-use crate::render::Harmonics;
+use crate::render::ImageLight;
 use crate::session::project_file::ProjectFileError;
 use crate::session::samples::Sample;
 use crate::session::{
@@ -401,7 +401,7 @@ pub fn take_image(path: &Path) -> Result<Command, String> {
 }
 
 /// Light from all sides out of the image at `path`.
-pub fn read_environment(path: &Path) -> Result<Harmonics, String> {
+pub fn read_environment(path: &Path) -> Result<ImageLight, String> {
     light_of(&read(path)?).map_err(|why| in_words(path, Deed::Read, &why))
 }
 
