@@ -418,7 +418,7 @@ pub fn exported(
     };
     let worn = Worn { garment, cloth, pattern, document };
     let body = snapshot.body.as_ref().map(|b| &b.mesh);
-    worn.files(WornOptions::default(), body, path).map_err(|e| in_words(path, Deed::Write, &Words::plain(e)))
+    worn.files(WornOptions::default(), body, path).map_err(|why| in_words(path, Deed::Write, &why))
 }
 
 /// Writes files, all or none of them.
