@@ -4,8 +4,8 @@ use glam::{DVec2, DVec3};
 
 use crate::cloth::{ClothState, Corner, Garment, TrimPart};
 use crate::geometry::ids::PieceId;
-use crate::geometry::mesh::vertex_normals;
 use crate::io::materials::{ClothMaterial, Colours, Textures};
+use crate::io::wedges::{Normals, Wedges};
 use crate::pattern::Pattern;
 
 /// A garment with its current vertex positions.
@@ -30,13 +30,6 @@ impl Dressed<'_> {
         (0..self.garment.triangles.len()).filter(is_laid).collect()
     }
 
-    /// The flat corners of `piece`, and the number of the first.
-    pub(super) fn corners(&self, piece: PieceId) -> (&[Corner], usize) {
-        let all = &self.garment.corners;
-        let first = all.partition_point(|c| c.piece < piece);
-        (&all[first..all.partition_point(|c| c.piece <= piece)], first)
-    }
-
     /// The trims, each with its material, whose name no other of them has.
     pub(super) fn trims(&self, colours: &Colours) -> Vec<(&TrimPart, ClothMaterial)> {
         let mut made: Vec<(&TrimPart, ClothMaterial)> = Vec::new();
@@ -45,40 +38,6 @@ impl Dressed<'_> {
             made.push((part, colours.of_trim(part, alike + 1)));
         }
         made
-    }
-}
-
-/// Cosine of the angle between the normal of a vertex and that of one side of its seam beyond which the seam is a sharp fold, as in
-/// src/render/buffers.rs.
-const SHARP: f64 = 0.5;
-
-/// Area-weighted unit normals of cloth; zero where no triangle is on the body.
-#[derive(Clone, Debug)]
-pub(super) struct Normals {
-    /// Of each vertex of the garment, over all sides of its seams.
-    pub vertices: Vec<DVec3>,
-    /// Of each flat corner: that of its vertex, but that of its own side where the seam is folded sharply, as a turn-up is. There
-    /// the normals of both sides cancel each other out.
-    pub corners: Vec<DVec3>,
-}
-
-impl Normals {
-    /// The normals at `positions` of the triangles with the indices `laid`.
-    pub fn new(garment: &Garment, positions: &[DVec3], laid: &[usize]) -> Self {
-        let triangles: Vec<[u32; 3]> = laid.iter().map(|&t| garment.triangles[t]).collect();
-        let vertices = vertex_normals(positions, &triangles);
-        let mut own = vec![DVec3::ZERO; garment.corners.len()];
-        for &t in laid {
-            let [a, b, c] = garment.triangles[t].map(|v| positions[v as usize]);
-            let normal = (b - a).cross(c - a);
-            garment.triangle_corners[t].iter().for_each(|&corner| own[corner as usize] += normal);
-        }
-        let of_corner = |(corner, own): (&Corner, DVec3)| {
-            let common = vertices[corner.vertex as usize];
-            own.try_normalize().filter(|own| own.dot(common) < SHARP).unwrap_or(common)
-        };
-        let corners = garment.corners.iter().zip(own).map(of_corner).collect();
-        Self { vertices, corners }
     }
 }
 
@@ -91,7 +50,8 @@ pub struct Frame {
     pub body: Vec<DVec3>,
 }
 
-/// Vertex arrays of a piece: one entry per flat corner (a vertex of one piece in the pattern plane).
+/// Vertex arrays of a piece: one entry per wedge, which is a flat corner (a vertex of one piece in the pattern plane) on one side of
+/// the fold lines through it.
 #[derive(Clone, Debug)]
 pub(super) struct PieceArrays {
     pub positions: Vec<DVec3>,
@@ -104,16 +64,18 @@ pub(super) struct PieceArrays {
 }
 
 impl PieceArrays {
-    /// The arrays of `piece` with its `triangles`; `normals` are those of the whole garment.
+    /// The arrays of `piece` with its `triangles`; wedges and normals are those of the whole garment.
     pub fn new(
         dressed: &Dressed<'_>,
         piece: PieceId,
         triangles: impl Iterator<Item = usize>,
-        normals: &Normals,
+        (wedges, normals): (&Wedges, &Normals),
         textures: Option<&Textures>,
     ) -> Self {
         let Dressed { garment, state, pattern, trims: _ } = dressed;
-        let (corners, first) = dressed.corners(piece);
+        let own = wedges.of_piece(garment, piece);
+        let corners: Vec<Corner> =
+            own.iter().map(|wedge| garment.corners[wedges.corners[wedge] as usize]).collect();
         let pose = pattern.pieces.get(&piece).map(|p| p.pose).unwrap_or_default();
         let weave = textures.and_then(|textures| textures.weave_from_piece.get(&piece));
         let uv = |at: DVec2| match textures {
@@ -125,9 +87,9 @@ impl PieceArrays {
                 .map(|map| corners.iter().map(|c| map.transform_point2(c.uv)).collect())
                 .unwrap_or_default(),
             positions: corners.iter().map(|c| state.positions[c.vertex as usize]).collect(),
-            normals: normals.corners[first..first + corners.len()].to_vec(),
+            normals: own.iter().map(|wedge| normals.wedges[wedge]).collect(),
             uv: corners.iter().map(|c| uv(c.uv)).collect(),
-            triangles: triangles.map(|t| garment.triangle_corners[t].map(|c| c - first as u32)).collect(),
+            triangles: triangles.map(|t| wedges.triangles[t].map(|wedge| own.place(wedge))).collect(),
         }
     }
 }
@@ -157,7 +119,9 @@ pub(super) mod tests {
     use super::*;
     use crate::cloth::TrimParts;
     use crate::cloth::TrimShapes;
-    use crate::pattern::{Button, EdgeRef, Piece, PiecePoint, Piping, Seam, Topstitch};
+    use crate::pattern::{
+        Button, Edge, EdgeRef, Fold, InternalLine, Piece, PiecePoint, Piping, Seam, Topstitch, Trims,
+    };
 
     /// Two squares sewn along one edge, bent at the seam by 90 degrees.
     pub(in crate::io) fn two_squares() -> (Pattern, Garment, ClothState) {
@@ -173,15 +137,33 @@ pub(super) mod tests {
         pattern.add_seam(Seam::of_edges(sides, false));
         let (garment, problems) = crate::cloth::build(&pattern, 0.03);
         assert!(problems.is_empty(), "{problems:?}");
+        let state = bent(&garment, angle, |c| if c.piece == ids[0] { c.uv.x } else { 0.1 + c.uv.x });
+        (pattern, garment, state)
+    }
+
+    /// A piece of 0.2 x 0.1 m with a fold line across its middle, at which its right half is turned back by `angle` degrees.
+    pub(in crate::io) fn folded_square(angle: f64) -> (Pattern, Garment, ClothState) {
+        let corners = [[0.0, 0.0], [0.2, 0.0], [0.2, 0.1], [0.0, 0.1]].map(DVec2::from);
+        let trims = Trims::from(Fold::pressed(-angle.to_radians()));
+        let edges = vec![Edge { start: DVec2::new(0.1, 0.0), trims, ..Edge::default() }];
+        let line = InternalLine { edges, end: DVec2::splat(0.1), ..InternalLine::default() };
+        let mut pattern = Pattern::default();
+        pattern.add_piece(Piece { lines: vec![line], ..Piece::polygon("folded", &corners) });
+        let (garment, problems) = crate::cloth::build(&pattern, 0.03);
+        assert!(problems.is_empty(), "{problems:?}");
+        let state = bent(&garment, angle, |c| c.uv.x);
+        (pattern, garment, state)
+    }
+
+    /// Cloth that lies flat up to 0.1 m of the `way` of its corners, and from there is turned back by `angle` degrees.
+    fn bent(garment: &Garment, angle: f64, way: impl Fn(&Corner) -> f64) -> ClothState {
         let (sin, cos) = angle.to_radians().sin_cos();
         let mut positions = vec![DVec3::ZERO; garment.vertex_count];
         for c in &garment.corners {
-            let DVec2 { x, y } = c.uv;
-            positions[c.vertex as usize] =
-                if c.piece == ids[0] { c.uv.extend(0.0) } else { DVec3::new(0.1 + x * cos, y, -x * sin) };
+            let (flat, turned) = (way(c).min(0.1), (way(c) - 0.1).max(0.0));
+            positions[c.vertex as usize] = DVec3::new(flat + turned * cos, c.uv.y, -turned * sin);
         }
-        let mapped = vec![true; garment.vertex_count];
-        (pattern, garment, ClothState { positions, mapped })
+        ClothState { positions, mapped: vec![true; garment.vertex_count] }
     }
 
     /// The two squares with a button on the first, piping along its lower edge and a row of stitches along its left one.
@@ -206,39 +188,6 @@ pub(super) mod tests {
         let state = ClothState { positions, mapped: vec![true; garment.vertex_count] };
         let trims = TrimParts::new(&TrimShapes::new(&garment, &pattern), &garment, &state, usize::MAX);
         (pattern, garment, state, trims.parts)
-    }
-
-    #[test]
-    fn the_sides_of_a_seam_that_is_folded_sharply_have_normals_of_their_own() {
-        // Up to 60 degrees no side is far enough from the common normal, beyond 120 at least one is.
-        for (angle, is_parted) in [(0.0, false), (60.0, false), (125.0, true), (175.0, true)] {
-            let (_, garment, state) = bent_squares(angle);
-            let all: Vec<usize> = (0..garment.triangles.len()).collect();
-            let normals = Normals::new(&garment, &state.positions, &all);
-            let (sin, cos) = f64::to_radians(angle).sin_cos();
-            let first = garment.corners[0].piece;
-            let (_, pairs) = &garment.seam_pairs[0];
-            let on_seam: Vec<usize> = pairs.iter().flatten().map(|&c| c as usize).collect();
-            for (i, (corner, normal)) in garment.corners.iter().zip(&normals.corners).enumerate() {
-                let face = if corner.piece == first { DVec3::Z } else { DVec3::new(sin, 0.0, cos) };
-                assert!(normal.dot(face) > SHARP - 1e-9, "{angle}: {normal} on {face}");
-                assert!(on_seam.contains(&i) || normal.distance(face) < 1e-9, "{angle}: {normal} on {face}");
-            }
-            assert!(pairs.len() > 3);
-            for [a, b] in pairs.iter().map(|pair| pair.map(|c| normals.corners[c as usize])) {
-                assert_eq!(a.dot(b) < SHARP, is_parted, "{angle}: {a} {b}");
-                assert_eq!(a != b, is_parted, "{angle}: {a} {b}");
-            }
-        }
-    }
-
-    #[test]
-    fn cloth_that_is_not_laid_has_no_normals() {
-        let (_, garment, mut state) = two_squares();
-        state.positions.fill(DVec3::NAN);
-        let normals = Normals::new(&garment, &state.positions, &[]);
-        assert!(normals.corners.iter().chain(&normals.vertices).all(|n| *n == DVec3::ZERO));
-        assert_eq!(normals.corners.len(), garment.corners.len());
     }
 
     #[test]

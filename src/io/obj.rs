@@ -13,9 +13,10 @@ use crate::geometry::mesh::TriMesh;
 use crate::geometry::words::{Words, within_quotes, words};
 use crate::io::Limits;
 use crate::io::atlas::Atlas;
-use crate::io::dressed::{Dressed, Normals, TrimArrays};
+use crate::io::dressed::{Dressed, TrimArrays};
 use crate::io::mtl::MaterialFile;
 use crate::io::polygon;
+use crate::io::wedges::{Normals, Wedges};
 use crate::io::words::line;
 use crate::pattern::Pattern;
 
@@ -434,23 +435,23 @@ pub struct UsedMaterials<'a> {
 }
 
 /// Writes the draped garment: one object per piece, sewn vertices shared, `v` in metres, `vt` the pattern plane in metres and `vn`
-/// the unit normals, both separate for each piece; the normals of both sides of a seam differ where it is folded sharply. Triangles
-/// with a vertex that is not yet placed on the body are left out.
+/// the unit normals, both separate for each piece; the normals of both sides of a seam or fold line differ where it is folded
+/// sharply. Triangles with a vertex that is not yet placed on the body are left out.
 pub fn garment(garment: &Garment, state: &ClothState, pattern: &Pattern) -> String {
     let dressed = Dressed { garment, state, pattern, trims: &[] };
-    let laid = dressed.laid();
-    let normals = Normals::new(garment, &state.positions, &laid);
-    cloth(&dressed, &laid, &normals, None)
+    let (laid, wedges) = (dressed.laid(), Wedges::new(garment));
+    let normals = Normals::new(garment, &wedges, &state.positions, &laid);
+    cloth(&dressed, &laid, (&wedges, &normals), None)
 }
 
 /// Writes the draped garment like [`garment`], with materials, and after its pieces its trims: one object for each kind and colour,
 /// without texture coordinates.
 pub fn garment_with(dressed: &Dressed<'_>, materials: UsedMaterials<'_>) -> String {
-    let laid = dressed.laid();
-    let normals = Normals::new(dressed.garment, &dressed.state.positions, &laid);
-    let mut text = cloth(dressed, &laid, &normals, Some(materials));
+    let (laid, wedges) = (dressed.laid(), Wedges::new(dressed.garment));
+    let normals = Normals::new(dressed.garment, &wedges, &dressed.state.positions, &laid);
+    let mut text = cloth(dressed, &laid, (&wedges, &normals), Some(materials));
     let mut first = dressed.state.positions.len() as u32 + 1;
-    let mut first_normal = normals.corners.len() as u32 + 1;
+    let mut first_normal = normals.wedges.len() as u32 + 1;
     for (part, name) in dressed.trims.iter().zip(&materials.file.trims) {
         let TrimArrays { positions, normals, triangles } = TrimArrays::new(dressed, part, &normals);
         positions.iter().for_each(|p| write_vertex(&mut text, *p));
@@ -473,7 +474,7 @@ pub fn garment_with(dressed: &Dressed<'_>, materials: UsedMaterials<'_>) -> Stri
 fn cloth(
     dressed: &Dressed<'_>,
     laid: &[usize],
-    normals: &Normals,
+    (wedges, normals): (&Wedges, &Normals),
     materials: Option<UsedMaterials<'_>>,
 ) -> String {
     let Dressed { garment, state, pattern, trims: _ } = *dressed;
@@ -496,7 +497,7 @@ fn cloth(
         };
         let _ = writeln!(text, "vt {:.9} {:.9}", p.x, p.y);
     }
-    normals.corners.iter().for_each(|n| write_normal(&mut text, *n));
+    normals.wedges.iter().for_each(|n| write_normal(&mut text, *n));
     for (id, name) in &garment.pieces {
         let _ = writeln!(text, "o {}", object_name(name));
         if let Some(material) = materials.and_then(|used| used.file.names.get(id)) {
@@ -504,8 +505,9 @@ fn cloth(
         }
         for &t in laid.iter().filter(|&&t| garment.triangle_pieces[t] == *id) {
             text.push('f');
-            for (v, c) in garment.triangles[t].iter().zip(&garment.triangle_corners[t]) {
-                let _ = write!(text, " {}/{corner}/{corner}", v + 1, corner = c + 1);
+            let flat = garment.triangle_corners[t].iter().zip(&wedges.triangles[t]);
+            for (v, (corner, wedge)) in garment.triangles[t].iter().zip(flat) {
+                let _ = write!(text, " {}/{}/{}", v + 1, corner + 1, wedge + 1);
             }
             text.push('\n');
         }

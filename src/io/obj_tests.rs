@@ -1,5 +1,5 @@
 use super::*;
-use crate::io::dressed::tests::{bent_squares, trimmed_squares};
+use crate::io::dressed::tests::{bent_squares, folded_square, trimmed_squares};
 use crate::io::materials::Colours;
 use crate::io::{cloth_obj, mtl};
 
@@ -179,6 +179,28 @@ fn cloth_has_normals_that_are_parted_at_sharp_folds_and_is_read_back_as_before()
         let rest = cloth_obj::read(text.as_bytes()).expect("cloth").rest.expect("a flat shape");
         assert_eq!(rest.len(), garment.triangles.len());
     }
+}
+
+#[test]
+fn a_pressed_fold_line_parts_normals_and_nothing_else() {
+    let (pattern, garment, state) = folded_square(170.0);
+    let text = super::garment(&garment, &state, &pattern);
+    let [positions, normals] = ["v", "vn"].map(|keyword| vectors(&text, keyword));
+    assert_eq!(positions.len(), garment.vertex_count);
+    assert!(normals.len() > garment.corners.len());
+    let (sin, cos) = f64::to_radians(170.0).sin_cos();
+    for face in corners(&text) {
+        let middle: f64 = face.iter().map(|&(v, ..)| positions[v].z).sum();
+        let front = if middle < -1e-6 { DVec3::new(sin, 0.0, cos) } else { DVec3::Z };
+        for (v, _, normal) in face {
+            let is_inside = (0.01..0.09).contains(&positions[v].y);
+            assert!(!is_inside || normals[normal].dot(front) > 0.4, "{} on {front}", normals[normal]);
+        }
+    }
+    let flat: Vec<Option<usize>> = corners(&text).concat().iter().map(|&(_, flat, _)| flat).collect();
+    let own: Vec<Option<usize>> =
+        garment.triangle_corners.iter().flatten().map(|&c| Some(c as usize)).collect();
+    assert_eq!(flat, own, "flat corners are as they were");
 }
 
 #[test]

@@ -15,8 +15,9 @@ use gltf_json::{Accessor, Index};
 use super::{Builder, GlbError, accessor};
 use crate::cloth::ClothState;
 use crate::geometry::mesh::{TriMesh, vertex_normals};
-use crate::io::dressed::{Dressed, Frame, Normals, PieceArrays, TrimArrays};
+use crate::io::dressed::{Dressed, Frame, PieceArrays, TrimArrays};
 use crate::io::materials::Colours;
+use crate::io::wedges::{Normals, Wedges};
 
 /// Approximate number of bytes that one frame adds to the file; trims count as the body does.
 pub fn bytes_per_frame(cloth_vertices: usize, body_vertices: usize) -> usize {
@@ -38,16 +39,18 @@ pub fn write_animated(
     let cloth =
         |frame: &Frame| ClothState { positions: frame.cloth.clone(), mapped: dressed.state.mapped.clone() };
     let triangles = Dressed { state: &cloth(first), ..dressed }.laid();
+    let wedges = Wedges::new(dressed.garment);
     let moved = |frame: &Frame| {
         let state = cloth(frame);
-        let normals = Normals::new(dressed.garment, &state.positions, &triangles);
+        let normals = Normals::new(dressed.garment, &wedges, &state.positions, &triangles);
         (state, normals)
     };
     let states: Vec<(ClothState, Normals)> = frames.iter().map(moved).collect();
     for (id, name) in &dressed.garment.pieces {
         let own = || triangles.iter().copied().filter(|&t| dressed.garment.triangle_pieces[t] == *id);
         let arrays = |(state, normals): &(ClothState, Normals)| {
-            PieceArrays::new(&Dressed { state, ..dressed }, *id, own(), normals, colours.textures.as_deref())
+            let dressed = Dressed { state, ..dressed };
+            PieceArrays::new(&dressed, *id, own(), (&wedges, normals), colours.textures.as_deref())
         };
         let shown = arrays(&states[0]);
         if shown.triangles.is_empty() {

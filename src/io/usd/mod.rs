@@ -12,11 +12,14 @@ mod shading;
 
 use std::sync::Arc;
 
+use glam::DVec3;
+
 use crate::cloth::ClothState;
 use crate::geometry::mesh::{TriMesh, vertex_normals};
 use crate::geometry::words::{Words, words};
-use crate::io::dressed::{Dressed, Frame, Normals, PieceArrays, TrimArrays};
+use crate::io::dressed::{Dressed, Frame, PieceArrays, TrimArrays};
 use crate::io::materials::{ClothMaterial, Colours, ROUGHNESS};
+use crate::io::wedges::{Normals, Wedges};
 use meshes::{MeshArrays, MovedMesh};
 use names::Names;
 use prim::{Prim, quoted};
@@ -187,19 +190,22 @@ impl<'a> Builder<'a> {
     fn garment(&mut self, dressed: &Dressed<'_>, frames: &[Frame]) {
         let Dressed { garment, state, .. } = *dressed;
         let triangles = dressed.laid();
-        let normals = Normals::new(garment, &state.positions, &triangles);
-        let moved: Vec<Normals> =
-            frames.iter().map(|frame| Normals::new(garment, &frame.cloth, &triangles)).collect();
+        let wedges = Wedges::new(garment);
+        let normals_at = |positions: &[DVec3]| Normals::new(garment, &wedges, positions, &triangles);
+        let normals = normals_at(&state.positions);
+        let moved: Vec<Normals> = frames.iter().map(|frame| normals_at(&frame.cloth)).collect();
         for (id, name) in &garment.pieces {
             let own = triangles.iter().copied().filter(|&t| garment.triangle_pieces[t] == *id);
-            let piece = PieceArrays::new(dressed, *id, own, &normals, self.colours.textures.as_deref());
+            let piece =
+                PieceArrays::new(dressed, *id, own, (&wedges, &normals), self.colours.textures.as_deref());
             if piece.triangles.is_empty() {
                 continue;
             }
-            let (corners, first) = dressed.corners(*id);
+            let own = wedges.of_piece(garment, *id);
+            let vertex = |wedge: usize| garment.corners[wedges.corners[wedge] as usize].vertex as usize;
             let of = |(frame, normals): (&Frame, &Normals)| {
-                let positions = corners.iter().map(|c| frame.cloth[c.vertex as usize]).collect();
-                (positions, normals.corners[first..first + corners.len()].to_vec())
+                let positions = own.iter().map(|wedge| frame.cloth[vertex(wedge)]).collect();
+                (positions, own.iter().map(|wedge| normals.wedges[wedge]).collect())
             };
             let moved: Vec<MovedMesh> = frames.iter().zip(&moved).map(of).collect();
             self.piece(name, &piece, &self.colours.of(*id), &moved);

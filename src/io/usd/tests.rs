@@ -1,4 +1,4 @@
-use glam::{DAffine2, DVec2, DVec3};
+use glam::{DAffine2, DVec2};
 
 use super::*;
 use crate::io::atlas::Atlas;
