@@ -12,7 +12,7 @@ use crate::cli::files;
 use crate::cli::interrupt;
 use crate::pack::Picture;
 use crate::render::{
-    Fineness, Harmonics, Legend, Lens, Look, RenderError, Rgb, Studio, View, framed, png, straightened,
+    Fineness, ImageLight, Legend, Lens, Look, RenderError, Rgb, Studio, View, framed, png, straightened,
 };
 use crate::session::{Outfit, Session};
 use crate::ui::fit_page::FitPage;
@@ -26,7 +26,7 @@ pub struct Artist {
     studio: Studio,
     scenery: Scenery,
     /// Light from all sides; None: that of the options.
-    environment: Option<Harmonics>,
+    environment: Option<ImageLight>,
     /// The lens that blurs what is out of focus.
     lens: Option<Lens>,
 }
@@ -39,7 +39,7 @@ impl Artist {
     }
 
     /// The same with this light from all sides in [`Artist::png`].
-    pub fn lit_by(self, environment: Option<Harmonics>) -> Self {
+    pub fn lit_by(self, environment: Option<ImageLight>) -> Self {
         Self { environment, ..self }
     }
 
@@ -120,7 +120,7 @@ impl Artist {
 }
 
 /// Light from all sides out of the image at `path`, as bright as the studio's.
-pub fn environment(path: &Path) -> Result<Harmonics, Failure> {
+pub fn environment(path: &Path) -> Result<ImageLight, Failure> {
     light_of(&files::read(path)?).map_err(|words| Failure::input(path, words))
 }
 

@@ -7,7 +7,7 @@ use std::sync::mpsc::{Receiver, TryRecvError, channel};
 use egui::SliderClamping;
 
 use crate::language::{shown, shown_in};
-use crate::render::{Harmonics, Light};
+use crate::render::{ImageLight, Light};
 use crate::ui::actions::Action;
 use crate::ui::actions::asks::{Ask, Asks};
 use crate::ui::app::App;
@@ -23,7 +23,7 @@ const NAME_WIDTH: f32 = 160.0;
 #[derive(Debug, Default)]
 pub struct EnvironmentMap {
     /// The last image that was read, and its light, not rotated.
-    read: Option<(PathBuf, Harmonics)>,
+    read: Option<(PathBuf, ImageLight)>,
     /// The image that is being read.
     coming: Option<Reading>,
     /// Whether the bar that rotates it is open.
@@ -34,12 +34,12 @@ pub struct EnvironmentMap {
 #[derive(Debug)]
 struct Reading {
     path: PathBuf,
-    coming: Receiver<Result<Harmonics, String>>,
+    coming: Receiver<Result<ImageLight, String>>,
 }
 
 impl EnvironmentMap {
     /// The light of the environment map of `lighting`, rotated; None where there is none or it is not read.
-    fn light(&self, lighting: &Lighting) -> Option<Harmonics> {
+    fn light(&self, lighting: &Lighting) -> Option<ImageLight> {
         let (path, light) = self.read.as_ref()?;
         (lighting.environment_used() == Some(path.as_path()))
             .then(|| light.turned(lighting.rotation.radians()))

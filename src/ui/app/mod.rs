@@ -201,11 +201,11 @@ impl App {
             self.messages.error(words);
         }
         self.shell.recent = Recent::read(path.with_file_name("recent.json"));
-        for words in self.languages.read(&path.with_file_name(choice::FOLDER)) {
-            self.messages.error(words);
-        }
+        let no_tables = self.languages.read(&path.with_file_name(choice::FOLDER));
         self.preferences_path = Some(path);
         self.live_by_preferences(ctx);
+        // The language is known only now.
+        no_tables.iter().for_each(|words| self.messages.error(said(words)));
         self.read_kept_environment(ctx);
     }
 

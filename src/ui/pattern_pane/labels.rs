@@ -38,7 +38,7 @@ pub fn along(points: &[Pos2], share: f32) -> Option<(Pos2, Vec2)> {
         }
         left -= length;
     }
-    sides().last().map(|(from, side)| (from + side, side.normalized()))
+    sides().next_back().map(|(from, side)| (from + side, side.normalized()))
 }
 
 #[cfg(test)]
