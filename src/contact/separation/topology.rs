@@ -135,8 +135,6 @@ impl Obstacle {
         let placed: Vec<PlacedTriangle> =
             (0..triangles.len() as u32).map(|t| PlacedTriangle::new(&topology, positions, &[], t)).collect();
         let boxes: Vec<Aabb> = placed.iter().map(|placed| placed.around).collect();
-        let mut broad = Broad::default();
-        broad.fit(&boxes);
-        Self { topology, positions: positions.to_vec(), broad, placed }
+        Self { topology, positions: positions.to_vec(), broad: Broad::over(&boxes), placed }
     }
 }
