@@ -405,7 +405,8 @@ mod tests {
         for degrees in 1..=180 {
             let here = away_from(&light, sun, degrees as f32);
             for (here, before) in here.iter().zip(&before) {
-                assert!(here.cmpge(Vec3::splat(-1e-6) * peak).all(), "{degrees}: {here}");
+                // Nine terms in single precision.
+                assert!(here.cmpge(Vec3::splat(-1e-5) * peak).all(), "{degrees}: {here} of {peak}");
                 assert!((*here - *before).cmple(0.002 * peak).all(), "{degrees}: {here} after {before}");
             }
             before = here;

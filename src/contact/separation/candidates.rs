@@ -107,7 +107,7 @@ mod tests {
         let other = Broad::over(&still);
         let mut kept = Candidates::default();
         let mut fresh = Candidates::default();
-        fresh.wide.plant(&moving);
+        [&mut kept, &mut fresh].map(|candidates| candidates.wide.plant(&moving));
         let count =
             |found: &[(bool, u32, u32)]| found.iter().filter(|(is_of_other, ..)| *is_of_other).count();
         for step in 0..40 {
@@ -119,7 +119,7 @@ mod tests {
             fresh.forget();
             fresh.fit(&moving, |_| 0.006, Some(&other), |_, _| false);
             let pairs = found(&kept, &other);
-            assert_eq!(pairs, found(&fresh, &other), "step {step}");
+            assert!(pairs == found(&fresh, &other), "step {step}");
             let mut own: Vec<[u32; 2]> = pairs
                 .iter()
                 .filter(|(is_of_other, ..)| !is_of_other)
@@ -132,7 +132,7 @@ mod tests {
                 .filter(|&(i, j)| meet(i, j))
                 .map(|(i, j)| [i as u32, j as u32])
                 .collect();
-            assert_eq!(own, exact, "step {step}");
+            assert!(own == exact, "step {step}: {} pairs for {}", own.len(), exact.len());
             let exact =
                 moving.iter().map(|item| still.iter().filter(|at| at.meets(item)).count()).sum::<usize>();
             assert_eq!(count(&pairs), exact, "step {step}");
