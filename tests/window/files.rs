@@ -476,7 +476,12 @@ fn begin_tech_pack(window: &mut Window, path: &Path) -> bool {
     act(window, "Deutsch");
     act(window, "Choose a file…");
     let writes = write_asked(window, path);
-    window.run_steps(2);
+    let is_making = |window: &Window| window.query_by_label("The tech pack is being made").is_some();
+    for _ in 0..6 {
+        if !is_making(window) {
+            window.run_steps(1);
+        }
+    }
     writes
 }
 
