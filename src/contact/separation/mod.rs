@@ -27,11 +27,11 @@ use rayon::prelude::*;
 use serde::Serialize;
 
 use crate::contact::separation::beside::{Beside, Group};
-use crate::contact::separation::candidates::Candidates;
+use crate::contact::separation::candidates::{Candidates, Moving};
 use crate::contact::separation::crossing::Crossings;
 use crate::contact::separation::features::Seen;
-use crate::contact::separation::repulsion::Pair;
 pub use crate::contact::separation::repulsion::Touch;
+use crate::contact::separation::repulsion::{Pair, RestLengths};
 pub use crate::contact::separation::topology::Obstacle;
 use crate::contact::separation::topology::{PlacedTriangle, Topology};
 use crate::geometry::adjacency::Adjacency;
@@ -67,9 +67,8 @@ pub struct Separation {
     names: Option<Vec<u32>>,
     /// Distance that the cloth keeps from itself, metres.
     thickness: f64,
-    /// Rest length (m) of each edge between sewn vertices, the smaller vertex first, sorted. Features that are joined
-    /// by an edge keep less than the thickness.
-    rest: Vec<([u32; 2], f64)>,
+    /// Rest lengths of the edges. Features that are joined by an edge keep less than the thickness.
+    rest: RestLengths,
     candidates: Candidates,
     beside: Beside,
     /// Positions of the vertices at the last detection (anchors), metres; empty before the first.
@@ -154,7 +153,7 @@ impl Separation {
         Self {
             beside,
             obstacle,
-            rest: repulsion::rest_lengths(&adjacency.edges, rest, names.as_deref()),
+            rest: RestLengths::new(&adjacency.edges, rest, names.as_deref()),
             thickness,
             pairs: Vec::new(),
             come: Vec::new(),
@@ -207,11 +206,9 @@ impl Separation {
         triangles
             .map(|t| PlacedTriangle::new(&self.cloth, &self.anchors, &self.reach, t))
             .collect_into_vec(&mut self.placed);
-        let box_of = |placed: &PlacedTriangle| grown(&placed.around, placed.farthest + self.thickness / 2.0);
-        let boxes: Vec<Aabb> = self.placed.par_iter().with_min_len(LEAST_SHARE).map(box_of).collect();
-        let obstacle = self.obstacle.as_deref().map(|obstacle| &obstacle.broad);
-        let (placed, beside) = (&self.placed, &self.beside);
-        self.candidates.fit(&boxes, |t| placed[t].farthest, obstacle, |s, t| beside.are(s, t));
+        let Self { anchors: x, reach, placed, thickness, beside, obstacle, candidates, .. } = self;
+        let cloth = Moving { x, reach, placed, thickness: *thickness };
+        candidates.fit(cloth, obstacle.as_deref(), |s, t| beside.are(s, t));
         let crossings = if self.is_clean { Crossings::default() } else { Crossings::found(self, is_inside) };
         self.beside.see(&self.placed);
         let found = self.gathered(&crossings);
@@ -228,18 +225,14 @@ impl Separation {
         self.sort(&found);
     }
 
-    /// Calls `look` for every two triangles of the cloth that may be near each other and are not neighbours, and `look_at_obstacle` for every triangle
-    /// of the cloth and triangle of the obstacle. The results come in an order that does not depend on threads.
+    /// Calls `look` for every two triangles of the cloth that may be near each other and are not neighbours, and `look_at_obstacle`
+    /// for every triangle of the cloth and triangle of the obstacle. The results come in an order that does not depend on threads.
     fn search<T: Default + Send>(
         &self,
         look: impl Fn(u32, u32, &mut T) + Sync,
         look_at_obstacle: impl Fn(u32, u32, &mut T) + Sync,
     ) -> Vec<T> {
-        self.candidates.search(
-            self.obstacle.as_deref().map(|obstacle| &obstacle.broad),
-            look,
-            look_at_obstacle,
-        )
+        self.candidates.search(self.obstacle.as_deref(), look, look_at_obstacle)
     }
 
     fn gathered(&self, crossings: &Crossings) -> Vec<Found> {
