@@ -60,7 +60,7 @@ pub fn export(arguments: &Export) -> Result<(), Failure> {
     // The texture coordinates of an OBJ without textures are metres of the pattern.
     let options = arguments.textures.worn(if ending == "obj" { 0 } else { USUAL_SIDE });
     let body = snapshot.body.as_ref().map(|b| &b.mesh);
-    let written = worn.files(options, body, &arguments.output).map_err(Failure::Limit)?;
+    let written = worn.files(options, body, &arguments.output).map_err(|why| Failure::Limit(why.into()))?;
     for line in &written.left_out {
         output::complain(&format!("{}: {line}", arguments.output.display()));
     }

@@ -12,12 +12,12 @@ use crate::cli::files;
 use crate::cli::interrupt;
 use crate::pack::Picture;
 use crate::render::{
-    Fineness, Harmonics, Legend, Lens, Look, RenderError, Rgb, Studio, View, framed, png, straightened,
+    Fineness, ImageLight, Legend, Lens, Look, RenderError, Rgb, Studio, View, framed, png, straightened,
 };
 use crate::session::{Outfit, Session};
 use crate::ui::fit_page::FitPage;
 use crate::ui::scenery::environment::light_of;
-use crate::ui::scenery::front_and_back::front_and_back;
+use crate::ui::scenery::front_and_back::FrontAndBack;
 use crate::ui::scenery::portrait::{Extras, portrait, worn_scene};
 use crate::ui::scenery::scene::Scenery;
 
@@ -26,7 +26,7 @@ pub struct Artist {
     studio: Studio,
     scenery: Scenery,
     /// Light from all sides; None: that of the options.
-    environment: Option<Harmonics>,
+    environment: Option<ImageLight>,
     /// The lens that blurs what is out of focus.
     lens: Option<Lens>,
 }
@@ -39,7 +39,7 @@ impl Artist {
     }
 
     /// The same with this light from all sides in [`Artist::png`].
-    pub fn lit_by(self, environment: Option<Harmonics>) -> Self {
+    pub fn lit_by(self, environment: Option<ImageLight>) -> Self {
         Self { environment, ..self }
     }
 
@@ -78,11 +78,16 @@ impl Artist {
 
     /// Draws the dressed garment of `session` from the front and from the back; nothing where there is none.
     pub fn front_and_back(&mut self, session: &Session) -> Result<Vec<Picture>, Failure> {
-        let Self { studio, scenery, .. } = self;
-        let pictures = front_and_back(session, scenery, |scene, camera, look, size| {
-            studio.draw(scene, camera, look, size).map(straightened)
-        });
-        pictures.unwrap_or_else(|| Ok(Vec::new())).map_err(failure)
+        let Some(mut drawing) = FrontAndBack::of(session, &mut self.scenery) else { return Ok(Vec::new()) };
+        while drawing.progress().0 < drawing.progress().1 {
+            interrupt::check()?;
+            drawing
+                .draw_next(|scene, camera, look, size| {
+                    self.studio.draw(scene, camera, look, size).map(straightened)
+                })
+                .map_err(failure)?;
+        }
+        Ok(drawing.pictures())
     }
 
     /// Draws the body, the cloth and, where there is no cloth yet, the marks of `session`, as PNG.
@@ -115,7 +120,7 @@ impl Artist {
 }
 
 /// Light from all sides out of the image at `path`, as bright as the studio's.
-pub fn environment(path: &Path) -> Result<Harmonics, Failure> {
+pub fn environment(path: &Path) -> Result<ImageLight, Failure> {
     light_of(&files::read(path)?).map_err(|words| Failure::input(path, words))
 }
 

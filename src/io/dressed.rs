@@ -5,6 +5,7 @@ use glam::{DVec2, DVec3};
 use crate::cloth::{ClothState, Corner, Garment, TrimPart};
 use crate::geometry::ids::PieceId;
 use crate::io::materials::{ClothMaterial, Colours, Textures};
+use crate::io::wedges::{Normals, Wedges};
 use crate::pattern::Pattern;
 
 /// A garment with its current vertex positions.
@@ -29,13 +30,6 @@ impl Dressed<'_> {
         (0..self.garment.triangles.len()).filter(is_laid).collect()
     }
 
-    /// The flat corners of `piece`, and the number of the first.
-    pub(super) fn corners(&self, piece: PieceId) -> (&[Corner], usize) {
-        let all = &self.garment.corners;
-        let first = all.partition_point(|c| c.piece < piece);
-        (&all[first..all.partition_point(|c| c.piece <= piece)], first)
-    }
-
     /// The trims, each with its material, whose name no other of them has.
     pub(super) fn trims(&self, colours: &Colours) -> Vec<(&TrimPart, ClothMaterial)> {
         let mut made: Vec<(&TrimPart, ClothMaterial)> = Vec::new();
@@ -56,7 +50,8 @@ pub struct Frame {
     pub body: Vec<DVec3>,
 }
 
-/// Vertex arrays of a piece: one entry per flat corner (a vertex of one piece in the pattern plane).
+/// Vertex arrays of a piece: one entry per wedge, which is a flat corner (a vertex of one piece in the pattern plane) on one side of
+/// the fold lines through it.
 #[derive(Clone, Debug)]
 pub(super) struct PieceArrays {
     pub positions: Vec<DVec3>,
@@ -69,16 +64,18 @@ pub(super) struct PieceArrays {
 }
 
 impl PieceArrays {
-    /// The arrays of `piece` with its `triangles`; `normals` are those of all vertices of the garment.
+    /// The arrays of `piece` with its `triangles`; wedges and normals are those of the whole garment.
     pub fn new(
         dressed: &Dressed<'_>,
         piece: PieceId,
         triangles: impl Iterator<Item = usize>,
-        normals: &[DVec3],
+        (wedges, normals): (&Wedges, &Normals),
         textures: Option<&Textures>,
     ) -> Self {
         let Dressed { garment, state, pattern, trims: _ } = dressed;
-        let (corners, first) = dressed.corners(piece);
+        let own = wedges.of_piece(garment, piece);
+        let corners: Vec<Corner> =
+            own.iter().map(|wedge| garment.corners[wedges.corners[wedge] as usize]).collect();
         let pose = pattern.pieces.get(&piece).map(|p| p.pose).unwrap_or_default();
         let weave = textures.and_then(|textures| textures.weave_from_piece.get(&piece));
         let uv = |at: DVec2| match textures {
@@ -90,9 +87,9 @@ impl PieceArrays {
                 .map(|map| corners.iter().map(|c| map.transform_point2(c.uv)).collect())
                 .unwrap_or_default(),
             positions: corners.iter().map(|c| state.positions[c.vertex as usize]).collect(),
-            normals: corners.iter().map(|c| normals[c.vertex as usize]).collect(),
+            normals: own.iter().map(|wedge| normals.wedges[wedge]).collect(),
             uv: corners.iter().map(|c| uv(c.uv)).collect(),
-            triangles: triangles.map(|t| garment.triangle_corners[t].map(|c| c - first as u32)).collect(),
+            triangles: triangles.map(|t| wedges.triangles[t].map(|wedge| own.place(wedge))).collect(),
         }
     }
 }
@@ -106,9 +103,9 @@ pub(super) struct TrimArrays {
 }
 
 impl TrimArrays {
-    /// The arrays of `part` on `dressed`; `normals` are those of all vertices of the garment.
-    pub fn new(dressed: &Dressed<'_>, part: &TrimPart, normals: &[DVec3]) -> Self {
-        let solid = part.solid(dressed.garment, dressed.state, normals);
+    /// The arrays of `part` on `dressed`; `normals` are those of the whole garment.
+    pub fn new(dressed: &Dressed<'_>, part: &TrimPart, normals: &Normals) -> Self {
+        let solid = part.solid(dressed.garment, dressed.state, &normals.vertices);
         Self {
             positions: solid.positions.iter().map(|p| p.as_dvec3()).collect(),
             normals: solid.normals.iter().map(|n| n.as_dvec3()).collect(),
@@ -122,10 +119,17 @@ pub(super) mod tests {
     use super::*;
     use crate::cloth::TrimParts;
     use crate::cloth::TrimShapes;
-    use crate::pattern::{Button, EdgeRef, Piece, PiecePoint, Piping, Seam, Topstitch};
+    use crate::pattern::{
+        Button, Edge, EdgeRef, Fold, InternalLine, Piece, PiecePoint, Piping, Seam, Topstitch, Trims,
+    };
 
-    /// Two squares sewn along one edge, bent at the seam.
+    /// Two squares sewn along one edge, bent at the seam by 90 degrees.
     pub(in crate::io) fn two_squares() -> (Pattern, Garment, ClothState) {
+        bent_squares(90.0)
+    }
+
+    /// Two squares sewn along one edge; the second is turned back by `angle` degrees at the seam, over the back of the first.
+    pub(in crate::io) fn bent_squares(angle: f64) -> (Pattern, Garment, ClothState) {
         let square = [DVec2::ZERO, DVec2::X * 0.1, DVec2::splat(0.1), DVec2::Y * 0.1];
         let mut pattern = Pattern::default();
         let ids = ["a", "b"].map(|name| pattern.add_piece(Piece::polygon(name, &square)));
@@ -133,13 +137,33 @@ pub(super) mod tests {
         pattern.add_seam(Seam::of_edges(sides, false));
         let (garment, problems) = crate::cloth::build(&pattern, 0.03);
         assert!(problems.is_empty(), "{problems:?}");
+        let state = bent(&garment, angle, |c| if c.piece == ids[0] { c.uv.x } else { 0.1 + c.uv.x });
+        (pattern, garment, state)
+    }
+
+    /// A piece of 0.2 x 0.1 m with a fold line across its middle, at which its right half is turned back by `angle` degrees.
+    pub(in crate::io) fn folded_square(angle: f64) -> (Pattern, Garment, ClothState) {
+        let corners = [[0.0, 0.0], [0.2, 0.0], [0.2, 0.1], [0.0, 0.1]].map(DVec2::from);
+        let trims = Trims::from(Fold::pressed(-angle.to_radians()));
+        let edges = vec![Edge { start: DVec2::new(0.1, 0.0), trims, ..Edge::default() }];
+        let line = InternalLine { edges, end: DVec2::splat(0.1), ..InternalLine::default() };
+        let mut pattern = Pattern::default();
+        pattern.add_piece(Piece { lines: vec![line], ..Piece::polygon("folded", &corners) });
+        let (garment, problems) = crate::cloth::build(&pattern, 0.03);
+        assert!(problems.is_empty(), "{problems:?}");
+        let state = bent(&garment, angle, |c| c.uv.x);
+        (pattern, garment, state)
+    }
+
+    /// Cloth that lies flat up to 0.1 m of the `way` of its corners, and from there is turned back by `angle` degrees.
+    fn bent(garment: &Garment, angle: f64, way: impl Fn(&Corner) -> f64) -> ClothState {
+        let (sin, cos) = angle.to_radians().sin_cos();
         let mut positions = vec![DVec3::ZERO; garment.vertex_count];
         for c in &garment.corners {
-            positions[c.vertex as usize] =
-                if c.piece == ids[0] { c.uv.extend(0.0) } else { DVec3::new(0.1, c.uv.y, -c.uv.x) };
+            let (flat, turned) = (way(c).min(0.1), (way(c) - 0.1).max(0.0));
+            positions[c.vertex as usize] = DVec3::new(flat + turned * cos, c.uv.y, -turned * sin);
         }
-        let mapped = vec![true; garment.vertex_count];
-        (pattern, garment, ClothState { positions, mapped })
+        ClothState { positions, mapped: vec![true; garment.vertex_count] }
     }
 
     /// The two squares with a button on the first, piping along its lower edge and a row of stitches along its left one.

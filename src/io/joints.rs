@@ -2,7 +2,6 @@
 //! `{"left_elbow": 60, "right_hip": {"flexion": 30, "abduction": 20}}`.
 
 use crate::body::pose::anatomy::JointAngle;
-use crate::geometry::words::Words;
 use crate::io::json::{At, JsonError, Node, parse};
 
 /// Reads the joint angles in the order of the file.
@@ -26,7 +25,7 @@ pub fn read(bytes: &[u8]) -> Result<Vec<JointAngle>, JsonError> {
 }
 
 fn angle(name: &str, degrees: &At<'_>) -> Result<JointAngle, JsonError> {
-    JointAngle::new(name, degrees.number()?).map_err(|why| degrees.error(Words::plain(why)))
+    JointAngle::new(name, degrees.number()?).map_err(|why| degrees.error(why))
 }
 
 #[cfg(test)]

@@ -7,7 +7,7 @@
 //! | `rul` | grade rule tables, beside `dxf` |
 //! | `pattern_file` | the result of reading a pattern, and its errors |
 //! | `body_file` | the body formats: `obj`, `gltf`; `moving_body`, `bvh`, `joints` are their motion, `sizes` their measurements |
-//! | `obj`, `mtl`, `glb`, `usd` | dressed cloth and its trims written (`dressed`), with its `materials` and their textures (`atlas`); `cloth_obj` cloth read |
+//! | `obj`, `mtl`, `glb`, `usd` | dressed cloth and its trims written (`dressed`), with its `materials` and their textures (`atlas`); their normals (`wedges`); `cloth_obj` cloth read |
 //! | `cloth_sheet` | the cloth that a marker is drawn on, for `svg`, `dxf` and `pdf` |
 //! | `trace`, `polygon`, `sheet`, `scale` | shared by drawings: making pieces of lines, finding the unit of length |
 //! | `picture` | PNG and JPEG; `environment`: light from all sides, also Radiance HDR |
@@ -43,6 +43,7 @@ pub mod sizes;
 pub mod svg;
 mod trace;
 pub mod usd;
+mod wedges;
 pub mod words;
 pub mod written;
 

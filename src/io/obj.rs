@@ -9,13 +9,14 @@ use std::fmt::Write as _;
 use glam::DVec3;
 
 use crate::cloth::{ClothState, Garment};
-use crate::geometry::mesh::{TriMesh, vertex_normals};
+use crate::geometry::mesh::TriMesh;
 use crate::geometry::words::{Words, within_quotes, words};
 use crate::io::Limits;
 use crate::io::atlas::Atlas;
 use crate::io::dressed::{Dressed, TrimArrays};
 use crate::io::mtl::MaterialFile;
 use crate::io::polygon;
+use crate::io::wedges::{Normals, Wedges};
 use crate::io::words::line;
 use crate::pattern::Pattern;
 
@@ -433,39 +434,50 @@ pub struct UsedMaterials<'a> {
     pub atlas: Option<&'a Atlas>,
 }
 
-/// Writes the draped garment: one object per piece, sewn vertices shared, `v` in metres, `vt` the pattern plane in metres,
-/// separate for each piece. Triangles with a vertex that is not yet placed on the body are left out.
+/// Writes the draped garment: one object per piece, sewn vertices shared, `v` in metres, `vt` the pattern plane in metres and `vn`
+/// the unit normals, both separate for each piece; the normals of both sides of a seam or fold line differ where it is folded
+/// sharply. Triangles with a vertex that is not yet placed on the body are left out.
 pub fn garment(garment: &Garment, state: &ClothState, pattern: &Pattern) -> String {
-    cloth(garment, state, pattern, None)
+    let dressed = Dressed { garment, state, pattern, trims: &[] };
+    let (laid, wedges) = (dressed.laid(), Wedges::new(garment));
+    let normals = Normals::new(garment, &wedges, &state.positions, &laid);
+    cloth(&dressed, &laid, (&wedges, &normals), None)
 }
 
 /// Writes the draped garment like [`garment`], with materials, and after its pieces its trims: one object for each kind and colour,
 /// without texture coordinates.
 pub fn garment_with(dressed: &Dressed<'_>, materials: UsedMaterials<'_>) -> String {
-    let Dressed { garment, state, pattern, trims } = *dressed;
-    let mut text = cloth(garment, state, pattern, Some(materials));
-    let laid: Vec<[u32; 3]> = dressed.laid().into_iter().map(|t| garment.triangles[t]).collect();
-    let normals = if trims.is_empty() { Vec::new() } else { vertex_normals(&state.positions, &laid) };
-    let mut first = state.positions.len() as u32 + 1;
-    for (part, name) in trims.iter().zip(&materials.file.trims) {
-        let TrimArrays { positions, normals: _, triangles } = TrimArrays::new(dressed, part, &normals);
+    let (laid, wedges) = (dressed.laid(), Wedges::new(dressed.garment));
+    let normals = Normals::new(dressed.garment, &wedges, &dressed.state.positions, &laid);
+    let mut text = cloth(dressed, &laid, (&wedges, &normals), Some(materials));
+    let mut first = dressed.state.positions.len() as u32 + 1;
+    let mut first_normal = normals.wedges.len() as u32 + 1;
+    for (part, name) in dressed.trims.iter().zip(&materials.file.trims) {
+        let TrimArrays { positions, normals, triangles } = TrimArrays::new(dressed, part, &normals);
         positions.iter().for_each(|p| write_vertex(&mut text, *p));
+        normals.iter().for_each(|n| write_normal(&mut text, *n));
         let _ = writeln!(text, "o {}\nusemtl {name}", object_name(name));
         for t in triangles {
-            let [a, b, c] = t.map(|v| first + v);
-            let _ = writeln!(text, "f {a} {b} {c}");
+            text.push('f');
+            for v in t {
+                let _ = write!(text, " {}//{}", first + v, first_normal + v);
+            }
+            text.push('\n');
         }
         first += positions.len() as u32;
+        first_normal += normals.len() as u32;
     }
     text
 }
 
+/// The cloth alone, of the triangles with the indices `laid`.
 fn cloth(
-    garment: &Garment,
-    state: &ClothState,
-    pattern: &Pattern,
+    dressed: &Dressed<'_>,
+    laid: &[usize],
+    (wedges, normals): (&Wedges, &Normals),
     materials: Option<UsedMaterials<'_>>,
 ) -> String {
+    let Dressed { garment, state, pattern, trims: _ } = *dressed;
     let atlas = materials.and_then(|used| used.atlas);
     let mut text = match atlas {
         None => String::from("# garment; v in metres, vt in metres of the pattern plane\n"),
@@ -485,19 +497,17 @@ fn cloth(
         };
         let _ = writeln!(text, "vt {:.9} {:.9}", p.x, p.y);
     }
+    normals.wedges.iter().for_each(|n| write_normal(&mut text, *n));
     for (id, name) in &garment.pieces {
         let _ = writeln!(text, "o {}", object_name(name));
         if let Some(material) = materials.and_then(|used| used.file.names.get(id)) {
             let _ = writeln!(text, "usemtl {material}");
         }
-        for (t, vertices) in garment.triangles.iter().enumerate() {
-            let mapped = vertices.iter().all(|&v| state.mapped.get(v as usize) == Some(&true));
-            if garment.triangle_pieces[t] != *id || !mapped {
-                continue;
-            }
+        for &t in laid.iter().filter(|&&t| garment.triangle_pieces[t] == *id) {
             text.push('f');
-            for (v, c) in vertices.iter().zip(&garment.triangle_corners[t]) {
-                let _ = write!(text, " {}/{}", v + 1, c + 1);
+            let flat = garment.triangle_corners[t].iter().zip(&wedges.triangles[t]);
+            for (v, (corner, wedge)) in garment.triangles[t].iter().zip(flat) {
+                let _ = write!(text, " {}/{}/{}", v + 1, corner + 1, wedge + 1);
             }
             text.push('\n');
         }
@@ -520,6 +530,10 @@ pub fn mesh(name: &str, mesh: &TriMesh) -> String {
 
 fn write_vertex(text: &mut String, p: DVec3) {
     let _ = writeln!(text, "v {:.9} {:.9} {:.9}", p.x, p.y, p.z);
+}
+
+fn write_normal(text: &mut String, n: DVec3) {
+    let _ = writeln!(text, "vn {:.6} {:.6} {:.6}", n.x, n.y, n.z);
 }
 
 fn object_name(name: &str) -> String {

@@ -1,7 +1,7 @@
 use super::*;
-use crate::io::dressed::tests::trimmed_squares;
+use crate::io::dressed::tests::{bent_squares, folded_square, trimmed_squares};
 use crate::io::materials::Colours;
-use crate::io::mtl;
+use crate::io::{cloth_obj, mtl};
 
 const TETRAHEDRON: &str = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n";
 
@@ -129,5 +129,93 @@ fn trims_come_after_the_cloth_as_objects_with_materials() {
     // Cords, buttons and stitches lie within some millimetres of the square of 0.1 m that they are on.
     for p in &mesh.positions[own..] {
         assert!(p.x > -0.001 && p.x < 0.101 && p.y > -0.0021 && p.y < 0.101 && p.z.abs() < 0.004, "{p}");
+    }
+}
+
+/// The numbers of all lines that begin with `keyword`.
+fn vectors(text: &str, keyword: &str) -> Vec<DVec3> {
+    let rows = text.lines().filter_map(|line| line.strip_prefix(keyword)?.strip_prefix(' '));
+    rows.map(|row| {
+        let numbers: Vec<f64> = row.split(' ').map(|word| word.parse().expect("a number")).collect();
+        DVec3::from_slice(&numbers)
+    })
+    .collect()
+}
+
+/// For each face its corners as indices from 0: vertex, texture coordinate (where it has one), normal.
+fn corners(text: &str) -> Vec<Vec<(usize, Option<usize>, usize)>> {
+    let index = |word: &str| word.parse::<usize>().expect("an index") - 1;
+    let corner = |word: &str| match word.split('/').collect::<Vec<_>>()[..] {
+        [v, "", n] => (index(v), None, index(n)),
+        [v, t, n] => (index(v), Some(index(t)), index(n)),
+        _ => panic!("{word}"),
+    };
+    let faces = text.lines().filter_map(|line| line.strip_prefix("f "));
+    faces.map(|line| line.split(' ').map(corner).collect()).collect()
+}
+
+#[test]
+fn cloth_has_normals_that_are_parted_at_sharp_folds_and_is_read_back_as_before() {
+    for (angle, is_parted) in [(40.0, false), (170.0, true)] {
+        let (pattern, garment, state) = bent_squares(angle);
+        let text = super::garment(&garment, &state, &pattern);
+        let normals = vectors(&text, "vn");
+        assert_eq!(normals.len(), garment.corners.len());
+        assert!(normals.iter().all(|n| n.is_normalized()), "unit to six digits");
+        let faces = corners(&text);
+        assert_eq!(faces.len(), garment.triangles.len());
+        let mut of_vertices = vec![Vec::new(); garment.vertex_count];
+        for &(v, flat, normal) in faces.iter().flatten() {
+            assert_eq!(flat, Some(normal), "a normal for each flat corner");
+            of_vertices[v].push(normals[normal]);
+        }
+        let parted = of_vertices.iter().filter(|all| all.iter().any(|n| *n != all[0])).count();
+        let on_seam = garment.seam_pairs[0].1.len();
+        assert_eq!(parted, if is_parted { on_seam } else { 0 }, "{angle} degrees");
+        // The vertices and triangles that a file without normals gives.
+        let plain: String = text.lines().filter(|l| l.starts_with("v ")).map(|l| format!("{l}\n")).collect();
+        let faces = faces.iter().map(|f| format!("f {} {} {}\n", f[0].0 + 1, f[1].0 + 1, f[2].0 + 1));
+        assert_eq!(good(&text).mesh, good(&(plain + &faces.collect::<String>())).mesh);
+        let rest = cloth_obj::read(text.as_bytes()).expect("cloth").rest.expect("a flat shape");
+        assert_eq!(rest.len(), garment.triangles.len());
+    }
+}
+
+#[test]
+fn a_pressed_fold_line_parts_normals_and_nothing_else() {
+    let (pattern, garment, state) = folded_square(170.0);
+    let text = super::garment(&garment, &state, &pattern);
+    let [positions, normals] = ["v", "vn"].map(|keyword| vectors(&text, keyword));
+    assert_eq!(positions.len(), garment.vertex_count);
+    assert!(normals.len() > garment.corners.len());
+    let (sin, cos) = f64::to_radians(170.0).sin_cos();
+    for face in corners(&text) {
+        let middle: f64 = face.iter().map(|&(v, ..)| positions[v].z).sum();
+        let front = if middle < -1e-6 { DVec3::new(sin, 0.0, cos) } else { DVec3::Z };
+        for (v, _, normal) in face {
+            let is_inside = (0.01..0.09).contains(&positions[v].y);
+            assert!(!is_inside || normals[normal].dot(front) > 0.4, "{} on {front}", normals[normal]);
+        }
+    }
+    let flat: Vec<Option<usize>> = corners(&text).concat().iter().map(|&(_, flat, _)| flat).collect();
+    let own: Vec<Option<usize>> =
+        garment.triangle_corners.iter().flatten().map(|&c| Some(c as usize)).collect();
+    assert_eq!(flat, own, "flat corners are as they were");
+}
+
+#[test]
+fn trims_have_normals_of_their_own() {
+    let (pattern, garment, state, trims) = trimmed_squares();
+    let dressed = Dressed { garment: &garment, state: &state, pattern: &pattern, trims: &trims };
+    let file = mtl::write(&dressed, &Colours::default(), str::to_owned);
+    let text = garment_with(&dressed, UsedMaterials { file: &file, file_name: "a.mtl", atlas: None });
+    let [positions, normals] = ["v", "vn"].map(|keyword| vectors(&text, keyword));
+    let of_trims: Vec<_> = corners(&text).into_iter().filter(|face| face[0].1.is_none()).collect();
+    assert_eq!(of_trims.len(), good(&text).mesh.triangles.len() - garment.triangles.len());
+    let extra = positions.len() - garment.vertex_count;
+    assert_eq!(normals.len(), garment.corners.len() + extra, "one for each vertex");
+    for &(v, _, normal) in of_trims.iter().flatten() {
+        assert_eq!(v - garment.vertex_count, normal - garment.corners.len());
+        assert!((normals[normal].length() - 1.0).abs() < 1e-4, "{}", normals[normal]);
     }
 }

@@ -56,7 +56,10 @@ pub(super) fn in_words(error: image::ImageError) -> Words {
         image::ImageError::Limits(_) => {
             words!("it is larger than {most} by {most} pixels, which a picture may have", most = MOST_SIDE)
         }
-        other => words!("it cannot be read: {why}", why = readable(&other.to_string())),
+        image::ImageError::Unsupported(why) => {
+            words!("it is of a kind that is not known: {why}", why = readable(&why.to_string()))
+        }
+        other => words!("it is damaged: {why}", why = readable(&other.to_string())),
     }
 }
 
@@ -88,7 +91,7 @@ mod tests {
         for (bytes, words) in [
             (&b"GIF89a"[..], "neither PNG nor JPEG"),
             (&[], "neither PNG nor JPEG"),
-            (&png[..png.len() / 2], "cannot be read"),
+            (&png[..png.len() / 2], "it is damaged: "),
         ] {
             assert!(read(bytes).is_err_and(|why| why.contains(words)), "{words}");
         }

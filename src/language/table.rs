@@ -5,6 +5,8 @@ use std::sync::OnceLock;
 
 use serde::Deserialize;
 
+use crate::geometry::words::{Words, within_quotes, words};
+
 /// The texts of one language.
 #[derive(Clone, Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -32,30 +34,37 @@ impl Table {
         GERMAN.get_or_init(|| Self::read(bytes).ok()).as_ref()
     }
 
-    /// Reads a table of JSON. The error is a message without the name of the file.
-    pub fn read(bytes: &[u8]) -> Result<Self, String> {
-        let table: Self = serde_json::from_slice(bytes).map_err(|e| e.to_string())?;
+    /// Reads a table of JSON.
+    ///
+    /// # Errors
+    /// In words, without the name of the file: no JSON of this form, no code, no name, another decimal sign, or a text whose values
+    /// are not those of its English one.
+    pub fn read(bytes: &[u8]) -> Result<Self, Words> {
+        let no_table = |e: serde_json::Error| words!("it is no table of texts: {why}", why = e.to_string());
+        let table: Self = serde_json::from_slice(bytes).map_err(no_table)?;
         let is_code = |c: char| c.is_ascii_alphanumeric() || c == '_' || c == '-';
         if table.code.is_empty() || !table.code.chars().all(is_code) {
-            return Err(format!(
-                "\"code\" is {:?}, which is no code of a language such as \"de\"",
-                table.code
+            return Err(words!(
+                "\"code\" is \"{code}\", which is no code of a language such as \"de\"",
+                code = within_quotes(&table.code)
             ));
         }
         if table.name.trim().is_empty() {
-            return Err("\"name\" is empty".to_owned());
+            return Err(words!("\"name\" is empty"));
         }
         if !['.', ','].contains(&table.decimal_sign) {
-            return Err(format!(
-                "\"decimal_sign\" is {:?}; it must be \".\" or \",\"",
-                table.decimal_sign.to_string()
+            return Err(words!(
+                "\"decimal_sign\" is \"{sign}\"; it must be \".\" or \",\"",
+                sign = within_quotes(&table.decimal_sign.to_string())
             ));
         }
         let differs = table.texts.iter().find(|(english, text)| names(english) != names(text));
         match differs {
-            Some((english, text)) => {
-                Err(format!("the values in braces of {text:?} are not those of {english:?}"))
-            }
+            Some((english, text)) => Err(words!(
+                "the values in braces of \"{text}\" are not those of \"{english}\"",
+                text = within_quotes(text),
+                english = within_quotes(english)
+            )),
             None => Ok(table),
         }
     }
@@ -79,7 +88,7 @@ fn names(text: &str) -> Vec<&str> {
 mod tests {
     use super::*;
 
-    fn why(text: &str) -> String {
+    fn why(text: &str) -> Words {
         Table::read(text.as_bytes()).expect_err("no table")
     }
 

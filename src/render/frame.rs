@@ -5,6 +5,7 @@ use glam::camera::rh::{proj::directx, view::look_at_mat4};
 use glam::{Mat4, Quat, UVec2, Vec2, Vec3, Vec4};
 
 use super::environment::Surroundings;
+use super::image_light::ImageLight;
 use super::light::Light;
 use super::part::{BLUR_MARGIN, Part};
 use super::srgb::{gamma, linear};
@@ -41,7 +42,8 @@ impl Frame {
     pub(super) fn new(camera: &Camera, scene: &Scene, look: &Look, part: &Part) -> Self {
         let viewport = part.whole.max(UVec2::ONE).as_vec2();
         let (view, projection) = (camera.view(), camera.projection(viewport.x / viewport.y));
-        let lamp = lamp_direction(camera, look.light);
+        let sun = look.environment.and_then(|light| light.sun());
+        let lamp = sun.map_or_else(|| lamp_direction(camera, look.light), |sun| sun.toward);
         let [sky, horizon, floor_colour] =
             look.light.backdrop().unwrap_or([look.sky, look.horizon, look.ground]);
         let (centre, radius) = mesh_ball(scene).unwrap_or(camera.bounds);
@@ -67,10 +69,14 @@ impl Frame {
                 f32::from(look.occlusion > 0.0),
                 radius * 0.004,
             ),
-            lamp_tint: look.light.tint().extend(0.0),
+            lamp_tint: sun.map_or_else(|| look.light.tint(), |sun| sun.colour).extend(0.0),
             part: rectangle(part.at, part.size),
             around: rectangle(part.around_at, part.around_size),
-            surroundings: Surroundings::new(look.light, look.environment.as_ref(), yaw(camera)),
+            surroundings: Surroundings::new(
+                look.light,
+                look.environment.as_ref().map(ImageLight::around),
+                yaw(camera),
+            ),
         }
     }
 }
@@ -145,6 +151,8 @@ fn mesh_ball(scene: &Scene) -> Option<(Vec3, f32)> {
 
 fn lamp_matrix(lamp: Vec3, centre: Vec3, radius: f32) -> Mat4 {
     let r = radius * 1.02;
-    let view = look_at_mat4(centre + lamp * r * 2.0, centre, Vec3::Y);
+    // A sun may be straight above.
+    let up = if lamp.y > 0.99 { Vec3::Z } else { Vec3::Y };
+    let view = look_at_mat4(centre + lamp * r * 2.0, centre, up);
     directx::orthographic(-r, r, -r, r, r * 0.9, r * 4.5) * view
 }

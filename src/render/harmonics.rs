@@ -2,8 +2,9 @@
 //! reflects (Ramamoorthi and Hanrahan, "An efficient representation for irradiance environment maps", SIGGRAPH 2001).
 
 use std::f64::consts::{PI, TAU};
+use std::ops::Range;
 
-use glam::{DVec3, Vec3};
+use glam::{DMat3, DVec3, Vec3};
 use image::Rgb32FImage;
 
 use super::srgb::luminance;
@@ -27,11 +28,20 @@ const NORMS: [f64; 9] = [
 ];
 /// What a matt surface makes of the harmonics of order 0, 1 and 2: the coefficients of the clamped cosine.
 const COSINE: [f64; 3] = [PI, 2.0 * PI / 3.0, PI / 4.0];
+/// Turn between neighbours of directions that are spread evenly along a spiral over the sphere, radians.
+const GOLDEN_ANGLE: f64 = 2.399_963_229_728_653;
 /// Order of each coefficient.
 const ORDER: [usize; 9] = [0, 1, 1, 1, 2, 2, 2, 2, 2];
 /// Places between a pole and the equator, and round it, at which radiance is read.
 const RINGS: usize = 24;
 const ROUND: usize = 192;
+/// Blur beyond which even light from a single direction rings no more: that needs 0.094.
+const MOST_BLUR: f64 = 1.0;
+/// Halvings of the range that the blur is looked for in.
+const HALVINGS: usize = 40;
+/// Normals from which the darkest one is looked for, and steps from there.
+const PLACES: usize = 256;
+const STEPS: usize = 200;
 
 impl Harmonics {
     /// The coefficients of `radiance` (linear RGB) of unit directions, by quadrature: exact to rounding for polynomials on either
@@ -58,24 +68,64 @@ impl Harmonics {
     /// +z and whose right half is towards -x, as someone sees it who stands in it with the back to -z.
     pub fn of_image(image: &Rgb32FImage) -> Self {
         let mut sum = [DVec3::ZERO; 9];
-        let (width, height) = (f64::from(image.width()), f64::from(image.height()));
-        for (column, row, pixel) in image.enumerate_pixels() {
-            let [upper, lower] = [0.0, 1.0].map(|below| (PI * (f64::from(row) + below) / height).cos());
-            let turn = TAU * ((f64::from(column) + 0.5) / width - 0.5);
-            let y = (upper + lower) / 2.0;
-            let away = (1.0 - y * y).max(0.0).sqrt();
-            let direction = DVec3::new(-away * turn.sin(), y, away * turn.cos());
-            let solid_angle = (upper - lower) * TAU / width;
-            add(&mut sum, direction, Vec3::from(pixel.0).as_dvec3() * solid_angle);
+        for pixel in pixels(image, 0..image.height()) {
+            add(&mut sum, pixel.direction, pixel.light * pixel.solid_angle);
         }
         Self(sum.map(|c| c.as_vec3()))
     }
 
+    /// The light without `others`: unit directions, and the light from each, radiance times solid angle.
+    #[must_use]
+    pub(super) fn without(&self, others: impl Iterator<Item = (DVec3, DVec3)>) -> Self {
+        let mut sum = self.0.map(|c| c.as_dvec3());
+        others.for_each(|(direction, light)| add(&mut sum, direction, -light));
+        Self(sum.map(|c| c.as_vec3()))
+    }
+
+    /// Mean over all directions, linear luminance.
+    pub(super) fn mean(&self) -> f32 {
+        luminance(self.0[0] * NORMS[0] as f32)
+    }
+
     /// The same light, of which the mean over all directions is as bright as `mean` (linear luminance); None if there is no light.
     pub fn with_mean(self, mean: f32) -> Option<Self> {
-        let own = luminance(self.0[0] * NORMS[0] as f32);
+        let own = self.mean();
         let factor = mean / own;
         (own > 0.0 && factor.is_finite()).then(|| Self(self.0.map(|c| c * factor)))
+    }
+
+    /// The same light, blurred by just so much that no matt surface reflects less than nothing of any colour. Harmonics of order 2
+    /// ring round a small bright light: surfaces a little turned away from it are darker than dark, those turned farther away are
+    /// bright again. Light that does not ring so stays as it is.
+    ///
+    /// The strength is chosen as by Sloan ("Stupid spherical harmonics (SH) tricks", GDC 2008: windowing). The window is that of heat
+    /// that spreads on the sphere, as more of it never makes light negative again.
+    #[must_use]
+    pub fn without_ringing(self) -> Self {
+        if self.least_reflected() >= 0.0 {
+            return self;
+        }
+        let [mut too_little, mut enough] = [0.0, MOST_BLUR];
+        for _ in 0..HALVINGS {
+            let middle = (too_little + enough) / 2.0;
+            match self.blurred(middle).least_reflected() < 0.0 {
+                true => too_little = middle,
+                false => enough = middle,
+            }
+        }
+        self.blurred(enough)
+    }
+
+    /// The light after heat has spread for the time `blur` at unit diffusivity: order l times exp(-l (l + 1) `blur`).
+    fn blurred(self, blur: f64) -> Self {
+        let window = |order: usize| (-blur * (order * (order + 1)) as f64).exp() as f32;
+        Self(std::array::from_fn(|i| self.0[i] * window(ORDER[i])))
+    }
+
+    /// The least light of a colour that a matt white surface reflects, whatever its normal.
+    fn least_reflected(&self) -> f64 {
+        let factors = self.reflected().map(|c| c.as_dvec3().to_array());
+        (0..3).map(|colour| least(&factors.map(|c| c[colour]))).fold(f64::INFINITY, f64::min)
     }
 
     /// The same light turned by `angle` radians about the axis y, counter-clockwise as seen from above: at a quarter turn, what came
@@ -112,6 +162,36 @@ impl Harmonics {
     }
 }
 
+/// A pixel of an image of all directions.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Pixel {
+    /// Unit vector towards its middle.
+    pub direction: DVec3,
+    /// Steradians.
+    pub solid_angle: f64,
+    /// Its radiance, linear RGB.
+    pub light: DVec3,
+}
+
+/// The pixels in `rows` of an equirectangular image, placed as by [`Harmonics::of_image`].
+pub(super) fn pixels(image: &Rgb32FImage, rows: Range<u32>) -> impl Iterator<Item = Pixel> {
+    rows.flat_map(move |row| (0..image.width()).map(move |column| pixel(image, column, row)))
+}
+
+/// The pixel in a column and a row of an equirectangular image, placed as by [`Harmonics::of_image`].
+pub(super) fn pixel(image: &Rgb32FImage, column: u32, row: u32) -> Pixel {
+    let (width, height) = (f64::from(image.width()), f64::from(image.height()));
+    let [upper, lower] = [0.0, 1.0].map(|below| (PI * (f64::from(row) + below) / height).cos());
+    let turn = TAU * ((f64::from(column) + 0.5) / width - 0.5);
+    let y = (upper + lower) / 2.0;
+    let away = (1.0 - y * y).max(0.0).sqrt();
+    Pixel {
+        direction: DVec3::new(-away * turn.sin(), y, away * turn.cos()),
+        solid_angle: (upper - lower) * TAU / width,
+        light: Vec3::from(image.get_pixel(column, row).0).as_dvec3(),
+    }
+}
+
 /// Adds `light` from a unit direction, radiance times solid angle.
 fn add(sum: &mut [DVec3; 9], direction: DVec3, light: DVec3) {
     for ((c, polynomial), norm) in sum.iter_mut().zip(polynomials(direction)).zip(NORMS) {
@@ -122,6 +202,29 @@ fn add(sum: &mut [DVec3; 9], direction: DVec3, light: DVec3) {
 fn polynomials(d: DVec3) -> [f64; 9] {
     let DVec3 { x, y, z } = d;
     [1.0, y, z, x, x * y, y * z, 3.0 * z * z - 1.0, x * z, x * x - y * y]
+}
+
+/// The least value of the sum of the polynomials times `factors` for unit vectors: from the lowest of directions all round it goes
+/// downhill by power iteration. To rounding, unless two valleys are equally deep, of which either is right.
+fn least(factors: &[f64; 9]) -> f64 {
+    let [_, y, z, x, xy, yz, zz, xz, xx_yy] = *factors;
+    let value = |d: DVec3| factors.iter().zip(polynomials(d)).map(|(f, p)| f * p).sum::<f64>();
+    let slope = DVec3::new(x, y, z);
+    let twice_quadratic = DMat3::from_cols(
+        DVec3::new(2.0 * xx_yy, xy, xz),
+        DVec3::new(xy, -2.0 * xx_yy, yz),
+        DVec3::new(xz, yz, 6.0 * zz),
+    );
+    // With its Frobenius norm on the diagonal the negated quadratic part is convex, so that no step goes uphill.
+    let norm = twice_quadratic.to_cols_array().iter().map(|c| c * c).sum::<f64>().sqrt();
+    let places = (0..PLACES).map(|i| {
+        let (y, turn) = (1.0 - (2 * i + 1) as f64 / PLACES as f64, i as f64 * GOLDEN_ANGLE);
+        let away = (1.0 - y * y).sqrt();
+        DVec3::new(away * turn.cos(), y, away * turn.sin())
+    });
+    let lowest = places.reduce(|a, b| if value(b) < value(a) { b } else { a }).unwrap_or(DVec3::Y);
+    let downhill = |d: DVec3, _: usize| (d * norm - slope - twice_quadratic * d).normalize_or(d);
+    value((0..STEPS).fold(lowest, downhill))
 }
 
 /// Nodes and weights of Gauss and Legendre's quadrature with `count` nodes on -1..=1, by Newton's method.
@@ -270,6 +373,80 @@ mod tests {
         let up = Harmonics::of(|d| Vec3::splat(d.y.max(0.0)));
         assert!(apart(&up.turned(1.0), &up) < 1e-5, "light from above stays");
         assert!(apart(&front.turned(0.4).turned(0.5), &front.turned(0.9)) < 1e-5);
+    }
+
+    /// A bright region of 2 by 2 pixels in a sky of even light, and the direction of its middle.
+    fn sun_in(sky: f32) -> (Harmonics, Vec3) {
+        let image = Rgb32FImage::from_fn(256, 128, |x, y| {
+            let is_sun = (40..42).contains(&x) && (30..32).contains(&y);
+            image::Rgb(if is_sun { [20_000.0, 18_000.0, 15_000.0] } else { [sky; 3] })
+        });
+        let [turn, from_above] = [(41.0 / 256.0 - 0.5) * TAU, 31.0 / 128.0 * PI];
+        let (sin, cos) = from_above.sin_cos();
+        (Harmonics::of_image(&image), DVec3::new(-sin * turn.sin(), cos, sin * turn.cos()).as_vec3())
+    }
+
+    /// Irradiance at these many degrees from `sun`, in several directions from it.
+    fn away_from(light: &Harmonics, sun: Vec3, degrees: f32) -> Vec<Vec3> {
+        let (sin, cos) = degrees.to_radians().sin_cos();
+        let (side, other) = sun.any_orthonormal_pair();
+        let around = (0..8).map(|i| (i as f32 * TAU as f32 / 8.0).sin_cos());
+        around.map(|(s, c)| irradiance(light, sun * cos + (side * c + other * s) * sin)).collect()
+    }
+
+    #[test]
+    fn light_of_a_small_sun_is_nowhere_negative_and_falls_off_away_from_it() {
+        let (ringing, sun) = sun_in(0.001);
+        let light = ringing.without_ringing();
+        let peak = irradiance(&light, sun);
+        assert!(ringing.least_reflected() < -0.01 * f64::from(peak.x), "it would ring");
+        assert!(light.least_reflected() >= 0.0);
+        let mut before = vec![peak; 8];
+        for degrees in 1..=180 {
+            let here = away_from(&light, sun, degrees as f32);
+            for (here, before) in here.iter().zip(&before) {
+                // Nine terms in single precision.
+                assert!(here.cmpge(Vec3::splat(-1e-5) * peak).all(), "{degrees}: {here} of {peak}");
+                assert!((*here - *before).cmple(0.002 * peak).all(), "{degrees}: {here} after {before}");
+            }
+            before = here;
+        }
+        let behind = irradiance(&light, -sun);
+        assert!(behind.cmple(0.02 * peak).all(), "and it is dark behind: {behind} of {peak}");
+        // The light as a whole stays, and so does where it comes from.
+        assert_eq!(light.0[0], ringing.0[0]);
+        let toward = |light: &Harmonics| Vec3::new(light.0[3].y, light.0[1].y, light.0[2].y).normalize();
+        assert!(toward(&light).distance(toward(&ringing)) < 1e-5 && toward(&light).dot(sun) > 0.999);
+    }
+
+    #[test]
+    fn light_that_does_not_ring_stays_as_it_is() {
+        let smooth = Harmonics::of(|d| Vec3::new(1.0 + d.y, 1.2 + d.x * d.z, 0.7 + 0.5 * d.z));
+        let (hazy, _) = sun_in(6.0);
+        for light in [smooth, hazy, Harmonics([Vec3::ZERO; 9])] {
+            assert_eq!(light.without_ringing(), light);
+        }
+        // Sky above and nothing below is dark just below.
+        let half = Harmonics::of(|d| Vec3::splat(f32::from(u8::from(d.y > 0.0))));
+        assert!(apart(&half.without_ringing(), &half) < 1e-3);
+    }
+
+    #[test]
+    fn the_least_of_polynomials_is_found() {
+        let mut random = [0.3, -0.8, 0.1, 0.9, -0.4, 0.6, 0.2, -0.7, 0.5];
+        for _ in 0..20 {
+            random.rotate_left(1);
+            random[0] = -random[0] * 1.1 + 0.05;
+            let value = |d: DVec3| random.iter().zip(polynomials(d)).map(|(f, p)| f * p).sum::<f64>();
+            let mut lowest = f64::INFINITY;
+            for i in 0..20_000 {
+                let (y, turn) = (1.0 - (2 * i + 1) as f64 / 20_000.0, i as f64 * GOLDEN_ANGLE);
+                let away = (1.0 - y * y).sqrt();
+                lowest = lowest.min(value(DVec3::new(away * turn.cos(), y, away * turn.sin())));
+            }
+            let found = least(&random);
+            assert!(found <= lowest + 1e-9 && found > lowest - 5e-3, "{found} {lowest}");
+        }
     }
 
     #[test]

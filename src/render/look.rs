@@ -1,6 +1,6 @@
 //! Colours and light of a picture.
 
-use super::harmonics::Harmonics;
+use super::image_light::ImageLight;
 use super::lens::Lens;
 use super::light::Light;
 use super::scene::Rgb;
@@ -17,15 +17,15 @@ pub struct Look {
     pub ground: Rgb,
     /// Surroundings; all but the studio have a background and a floor of their own.
     pub light: Light,
-    /// Light from everywhere in place of that of `light`, as from an image.
-    pub environment: Option<Harmonics>,
+    /// Light out of an image: from everywhere in place of that of `light`, and where the image has a sun, that as the lamp.
+    pub environment: Option<ImageLight>,
     /// The lens whose depth of field blurs what is out of focus; None: all is sharp. Drafts are always sharp.
     pub lens: Option<Lens>,
     /// Strength of the grid lines on the floor, 0..=1.
     pub grid: f32,
     /// Ambient light, 0..=1.
     pub ambient: f32,
-    /// Light of the lamp, which is above and left of the eye, 0..=1.
+    /// Light of the lamp, which is above and left of the eye unless it is the sun of `environment`, 0..=1.
     pub key: f32,
     /// Darkness of the lamp's shadows, 0..=1.
     pub shadow: f32,

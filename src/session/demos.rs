@@ -15,6 +15,12 @@ pub enum Demo {
     Grading,
     /// A dressed body in other poses.
     Posing,
+    /// A coat that becomes a jacket with buttons, topstitching and hems.
+    Finishing,
+    /// A T-shirt with a graphic, in two colourways.
+    Colourways,
+    /// A dress on the bias, with allowances and notches, to be laid out on cloth.
+    Cutting,
     /// A skirt of a chosen fabric and print, to be exported to Blender.
     Export,
     /// Figure 1: marks on cloth and body, and the wrap.
@@ -37,13 +43,16 @@ pub enum Demo {
 
 impl Demo {
     /// All of them, in the order of the menu: the walks, then the figures.
-    pub const ALL: [Self; 15] = [
+    pub const ALL: [Self; 18] = [
         Self::Drafting,
         Self::Fitting,
         Self::Drawing,
         Self::Creature,
         Self::Grading,
         Self::Posing,
+        Self::Finishing,
+        Self::Colourways,
+        Self::Cutting,
         Self::Export,
         Self::Wrapping,
         Self::Dragging,
@@ -64,6 +73,9 @@ impl Demo {
             Self::Creature => "Wrap a creature",
             Self::Grading => "Grade a skirt",
             Self::Posing => "Take another pose",
+            Self::Finishing => "Finish a jacket",
+            Self::Colourways => "Make two colourways",
+            Self::Cutting => "Prepare a dress for cutting",
             Self::Export => "Export to Blender",
             Self::Wrapping => "Wrapping by marks",
             Self::Dragging => "A point, or all of it",
@@ -90,6 +102,9 @@ impl Demo {
             | Self::Creature
             | Self::Grading
             | Self::Posing
+            | Self::Finishing
+            | Self::Colourways
+            | Self::Cutting
             | Self::Export => return None,
             Self::Wrapping => "1",
             Self::Dragging => "2",
@@ -121,6 +136,15 @@ impl Demo {
             Self::Posing => {
                 "Marks, pins and dressed cloth go along when the body moves: arms down, then a step."
             }
+            Self::Finishing => {
+                "A coat becomes a jacket with buttons and buttonholes, topstitching along its front edges and collar, and hems. Then it is sewn together where its pieces are placed round the body, and the buttons hold it closed."
+            }
+            Self::Colourways => {
+                "A T-shirt of jersey gets a colour, striped sleeves and a graphic. That is kept as a colourway, other colours as a second; by its name each comes back."
+            }
+            Self::Cutting => {
+                "A striped dress gets a seam allowance, hem corners that fit turned up, and notches. The grainline of its skirt is turned to the bias, and the stripes turn with it."
+            }
             Self::Export => {
                 "The skirt gets a fabric and a colour, front and back a print; then it is wrapped and draped. Blender gets all of that."
             }
@@ -151,8 +175,15 @@ impl Demo {
 
     /// What a person does next, told in place of the caption when the demo has ended.
     pub fn leads_to(self) -> Option<&'static str> {
-        let words = "File › Export… writes it as .glb: cloth and body in metres, with materials, textures and texture coordinates. In Blender it comes in by File › Import › glTF 2.0.";
-        (self == Self::Export).then_some(words)
+        match self {
+            Self::Cutting => Some(
+                "File › Marker… lays the pieces out on a width of cloth, each by its cutting line and its grainline, and writes that as .pdf, .svg or .dxf.",
+            ),
+            Self::Export => Some(
+                "File › Export… writes it as .glb: cloth and body in metres, with materials, textures and texture coordinates. In Blender it comes in by File › Import › glTF 2.0.",
+            ),
+            _ => None,
+        }
     }
 
     /// Name of its file in `assets/demos`, without `.jsonl`.
@@ -164,6 +195,9 @@ impl Demo {
             Self::Creature => "creature",
             Self::Grading => "grading",
             Self::Posing => "posing",
+            Self::Finishing => "finishing",
+            Self::Colourways => "colourways",
+            Self::Cutting => "cutting",
             Self::Export => "export",
             Self::Wrapping => "wrapping",
             Self::Dragging => "dragging",
@@ -185,6 +219,9 @@ impl Demo {
             Self::Creature => include_str!("../../assets/demos/creature.jsonl"),
             Self::Grading => include_str!("../../assets/demos/grading.jsonl"),
             Self::Posing => include_str!("../../assets/demos/posing.jsonl"),
+            Self::Finishing => include_str!("../../assets/demos/finishing.jsonl"),
+            Self::Colourways => include_str!("../../assets/demos/colourways.jsonl"),
+            Self::Cutting => include_str!("../../assets/demos/cutting.jsonl"),
             Self::Export => include_str!("../../assets/demos/export.jsonl"),
             Self::Wrapping => include_str!("../../assets/demos/wrapping.jsonl"),
             Self::Dragging => include_str!("../../assets/demos/dragging.jsonl"),

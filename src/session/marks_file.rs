@@ -11,7 +11,8 @@ use glam::{DVec2, DVec3};
 use serde::{Deserialize, Serialize};
 
 use crate::geometry::ids::MarkId;
-use crate::io::words::readable;
+use crate::geometry::words::{Words, within_quotes, words};
+use crate::io::words::readable_words;
 use crate::pattern::Pattern;
 use crate::wrap::{BodyMark, ClothMark, ClothSide, Marks};
 
@@ -31,26 +32,31 @@ struct Pair {
     body: Vec<DVec3>,
 }
 
-/// The marks in `bytes` on the pieces of `pattern`, with ids from 1. The error is in words.
-pub fn read(bytes: &[u8], pattern: &Pattern) -> Result<Marks, String> {
+/// The marks in `bytes` on the pieces of `pattern`, with ids from 1.
+///
+/// # Errors
+/// In words: no JSON of this form, no pair, a piece that is not there, a stroke without points.
+pub fn read(bytes: &[u8], pattern: &Pattern) -> Result<Marks, Words> {
     let bytes = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
-    let file: File =
-        serde_json::from_slice(bytes).map_err(|e| readable(&format!("not a file of marks: {e}")))?;
+    let file: File = serde_json::from_slice(bytes)
+        .map_err(|e| readable_words(words!("not a file of marks: {why}", why = e.to_string())))?;
     if file.pairs.is_empty() {
-        return Err("the file has no pair of marks".to_owned());
+        return Err(words!("the file has no pair of marks"));
     }
     let mut marks = Marks::default();
     for (i, pair) in file.pairs.into_iter().enumerate() {
+        let number = i + 1;
         let Some(piece) = pattern.piece_named(&pair.piece) else {
             let names: Vec<&str> = pattern.pieces.values().map(|p| p.name.as_str()).collect();
-            let (number, names) = (i + 1, names.join(", "));
-            return Err(readable(&format!(
-                "pair {number}: there is no piece {:?}, only {names}",
-                pair.piece
+            return Err(readable_words(words!(
+                "pair {number}: there is no piece \"{piece}\", only {names}",
+                number,
+                piece = within_quotes(&pair.piece),
+                names = names.join(", ")
             )));
         };
         if pair.cloth.is_empty() || pair.body.is_empty() {
-            return Err(format!("pair {}: a stroke needs at least one point", i + 1));
+            return Err(words!("pair {number}: a stroke needs at least one point", number));
         }
         let id = 2 * i as u32 + 1;
         marks.cloth.push(ClothMark { id: MarkId(id), piece, side: pair.side, points: pair.cloth });

@@ -95,6 +95,19 @@ impl Selection {
         outlines && lines.is_empty() && line_points.is_empty() && seams.is_empty() && pins.is_empty()
     }
 
+    /// The selected item of the pattern, if it is the only one.
+    pub fn only(&self) -> Option<Item> {
+        let Self { pieces, points, edges, lines, line_points, seams, pins: _ } = self;
+        let pieces = pieces.iter().map(|&id| Item::Piece(id));
+        let points = points.iter().map(|&id| Item::Point(id));
+        let edges = edges.iter().map(|&id| Item::Edge(id));
+        let lines = lines.iter().map(|&id| Item::Line(id));
+        let line_points = line_points.iter().map(|&id| Item::LinePoint(id));
+        let seams = seams.iter().map(|&id| Item::Seam(id));
+        let mut all = pieces.chain(points).chain(edges).chain(lines).chain(line_points).chain(seams);
+        all.next().filter(|_| all.next().is_none())
+    }
+
     /// Whether `item` is selected.
     pub fn has(&self, item: Item) -> bool {
         match item {

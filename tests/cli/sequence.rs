@@ -4,6 +4,7 @@ use glam::{DQuat, DVec3};
 
 use crate::program::Place;
 use crate::repose::{dressed, moved, vertices};
+use crate::textures::normals;
 
 /// Where everything is in frame `i`.
 fn turned(i: usize) -> impl Fn(DVec3) -> DVec3 {
@@ -37,8 +38,14 @@ fn cloth_goes_along_through_a_folder_of_frames() {
     assert!([0, 1].contains(&ended.code), "{ended:#?}");
     let before = vertices(&place.read("out/garment.obj"));
     for i in 0..11 {
-        let after = vertices(&place.read(&format!("posed/garment_{i:04}.obj")));
-        let there = turned(i);
+        let text = place.read(&format!("posed/garment_{i:04}.obj"));
+        let (after, there) = (vertices(&text), turned(i));
+        let turn = |n: [f32; 3]| there(DVec3::from_array(n.map(f64::from))) - there(DVec3::ZERO);
+        let [dressed, posed] = [&place.read("out/garment.obj"), &text].map(|text| normals(text));
+        assert!(dressed.len() > 100 && dressed.len() == posed.len(), "frame {i}: {}", posed.len());
+        let apart = |(&n, &q): (&[f32; 3], &[f32; 3])| turn(n).distance(DVec3::from_array(q.map(f64::from)));
+        let apart = dressed.iter().zip(&posed).map(apart).fold(0.0, f64::max);
+        assert!(apart < 0.05, "frame {i}: normals turn along, {apart}");
         let worst = before.iter().zip(&after).map(|(&p, q)| there(p).distance(*q)).fold(0.0, f64::max);
         assert!(before.len() == after.len() && worst < 1e-4, "frame {i}: {worst}");
     }

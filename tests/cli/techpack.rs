@@ -64,6 +64,7 @@ fn in_german_its_heads_and_numbers_are_german_and_its_contents_stay_english() {
     for (ours, theirs) in [
         ("Tech pack", "Produktionsblatt"),
         ("Cloth needed", "Stoffbedarf"),
+        ("Measures of the garment", "Fertigmaße"),
         ("Girth", "Umfang"),
         ("Ease", "Mehrweite"),
         ("Seams", "Nähte"),

@@ -52,6 +52,15 @@ impl Scene {
     }
 }
 
+/// The normals of an OBJ file.
+pub fn normals(text: &str) -> Vec<[f32; 3]> {
+    let row = |line: &str| -> Vec<f32> { line.split(' ').map(|w| w.parse().expect("a number")).collect() };
+    text.lines()
+        .filter_map(|line| line.strip_prefix("vn "))
+        .map(|line| row(line).try_into().expect("three numbers"))
+        .collect()
+}
+
 /// The least and greatest of each coordinate.
 pub fn bounds(places: &[[f32; 2]]) -> [[f32; 2]; 2] {
     let by = |f: fn(f32, f32) -> f32, start: f32| [0, 1].map(|k| places.iter().map(|p| p[k]).fold(start, f));
@@ -154,8 +163,9 @@ fn an_obj_has_its_materials_and_their_images_beside_it() {
         text.contains("newmtl denim-11oz\n") && text.contains("Pr 0.750\n") && !text.contains("map_Kd"),
         "{text}"
     );
-    let in_metres = cloth_obj::read(place.read("cloth.obj").as_bytes()).expect("cloth");
-    assert!(place.read("cloth.obj").contains("mtllib cloth.mtl\n"));
+    let in_metres_text = place.read("cloth.obj");
+    let in_metres = cloth_obj::read(in_metres_text.as_bytes()).expect("cloth");
+    assert!(in_metres_text.contains("mtllib cloth.mtl\n"));
     place.ends(0, "export dressed.toile -o cloth.obj --fabric denim-11oz --textures 128");
     let text = place.read("cloth.mtl");
     for line in
@@ -169,7 +179,26 @@ fn an_obj_has_its_materials_and_their_images_beside_it() {
     }
     let in_texture = cloth_obj::read(place.read("cloth.obj").as_bytes()).expect("cloth");
     assert_eq!(in_texture.mesh, in_metres.mesh);
+    assert_eq!(normals(&place.read("cloth.obj")), normals(&in_metres_text));
     let rest = in_texture.rest.expect("texture coordinates");
     assert!(rest.iter().flatten().all(|p| p.min_element() >= 0.0 && p.max_element() <= 1.0));
     assert!(rest.iter().flatten().map(|p| p.x).fold(0.0, f64::max) > 0.9, "the atlas is filled");
+}
+
+#[test]
+fn an_obj_has_the_normals_of_a_glb() {
+    let place = dressed();
+    place.ends(0, "export dressed.toile -o cloth.obj --no-trims");
+    place.ends(0, "export dressed.toile -o cloth.glb --textures 0 --no-trims");
+    let scene = Scene::read(&place, "cloth.glb");
+    let of_piece = |name: &str| -> Vec<[f32; 3]> {
+        let mesh = scene.gltf.meshes().find(|m| m.name() == Some(name)).expect("a mesh");
+        let outside = mesh.primitives().next().expect("the outside");
+        outside.reader(|_| Some(&scene.data)).read_normals().expect("normals").collect()
+    };
+    let (wanted, found) = (["left", "right"].map(of_piece).concat(), normals(&place.read("cloth.obj")));
+    assert_eq!(found.len(), wanted.len());
+    for (found, wanted) in found.iter().zip(&wanted) {
+        assert!((0..3).all(|k| (found[k] - wanted[k]).abs() < 1e-6), "{found:?}, not {wanted:?}");
+    }
 }

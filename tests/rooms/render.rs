@@ -7,8 +7,8 @@ use glam::{UVec2, Vec2, Vec3};
 use image::RgbaImage;
 use toile::cloth::{Fabric, FabricLook, Weave};
 use toile::render::{
-    BODY, CLOTH_BACK, CLOTH_FRONT, Camera, Fineness, Ground, Harmonics, Label, Light, Look, MEAN_LIGHT, Mesh,
-    Polyline, RenderError, Scene, Studio, Textile, View, framed,
+    BODY, CLOTH_BACK, CLOTH_FRONT, Camera, Fineness, Ground, ImageLight, Label, Light, Look, MEAN_LIGHT,
+    Mesh, Polyline, RenderError, Scene, Studio, Textile, View, framed,
 };
 use toile::ui::scenery::fabric_looks::textile;
 
@@ -492,7 +492,7 @@ fn an_image_lights_from_where_it_is_bright() {
     let image = image::Rgb32FImage::from_fn(64, 32, |x, _| {
         image::Rgb(if x >= 32 { [90.0, 20.0, 20.0] } else { [20.0, 20.0, 90.0] })
     });
-    let environment = Harmonics::of_image(&image).with_mean(MEAN_LIGHT);
+    let environment = ImageLight::of_image(&image, MEAN_LIGHT);
     assert!(environment.is_some());
     let look = Look { environment, key: 0.0, ..Look::light() };
     let scene = Scene { meshes: vec![Arc::new(sphere(0.5, [160; 3], [160; 3]))], ..Default::default() };
@@ -514,6 +514,38 @@ fn an_image_lights_from_where_it_is_bright() {
 }
 
 #[test]
+fn the_sun_of_an_image_is_the_lamp_and_turns_with_the_image() {
+    let Some(mut studio) = studio() else { return };
+    // Low on the right of one who stands in it with the back to -z, that is, on the left of one who looks at the front.
+    let image = image::Rgb32FImage::from_fn(256, 128, |x, y| {
+        let is_sun = (190..193).contains(&x) && (52..55).contains(&y);
+        image::Rgb([if is_sun { 5000.0 } else { 1.0 }; 3])
+    });
+    let light = ImageLight::of_image(&image, MEAN_LIGHT).expect("light");
+    // Cloth without gloss: skin and threads mirror the lamp even where it has no strength.
+    let mut ball = sphere(0.5, [160; 3], [160; 3]);
+    ball.cloth = 1.0;
+    ball.textile = Textile { gloss: 0.0, sheen: 0.0, ..Textile::default() };
+    let scene = Scene { meshes: vec![Arc::new(ball)], ..Default::default() };
+    let mut sides = |view: View, degrees: f32, key: f32| {
+        let environment = Some(light.turned(degrees.to_radians()));
+        let look = Look { environment, key, ..Look::light() };
+        let picture = studio.picture(&scene, view, &look, SIZE).expect("a picture");
+        [90, 230].map(|x| pixel(&picture, x, 120)[1])
+    };
+    let key = Look::light().key;
+    let [left, right] = sides(View::Front, 0.0, key);
+    assert!(left > right + 20, "from the left: {left}, {right}");
+    // It stays where it is when the eye goes round, and goes round with the image.
+    for (view, degrees) in [(View::Back, 0.0), (View::Front, 180.0)] {
+        let [left, right] = sides(view, degrees, key);
+        assert!(right > left + 20, "{view:?}, {degrees}: {left}, {right}");
+    }
+    let [left, right] = sides(View::Front, 0.0, 0.0);
+    assert!((left - right).abs() < 4, "without the lamp the light is even: {left}, {right}");
+}
+
+#[test]
 fn the_light_of_an_image_is_rotated_about_the_vertical_axis() {
     let Some(mut studio) = studio() else { return };
     // Red towards -x, blue towards +x, and brighter above.
@@ -521,7 +553,7 @@ fn the_light_of_an_image_is_rotated_about_the_vertical_axis() {
         let light = if y < 16 { 2.0 } else { 1.0 };
         image::Rgb(if x >= 32 { [90.0, 20.0, 20.0] } else { [20.0, 20.0, 90.0] }.map(|c| c * light))
     });
-    let light = Harmonics::of_image(&image).with_mean(MEAN_LIGHT).expect("light");
+    let light = ImageLight::of_image(&image, MEAN_LIGHT).expect("light");
     let scene = Scene { meshes: vec![Arc::new(sphere(0.5, [160; 3], [160; 3]))], ..Default::default() };
     let mut drawn = |view: View, degrees: f32| {
         let environment = Some(light.turned(degrees.to_radians()));

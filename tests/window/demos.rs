@@ -95,3 +95,22 @@ fn the_walk_to_blender_ends_with_an_export_of_what_it_made() {
     key(&mut window, Modifiers::NONE, Key::Escape);
     assert!(!app(&window).shown().snapshot().is_dressed(), "back to the document");
 }
+
+#[test]
+fn a_marker_asked_for_in_a_walk_is_of_the_pieces_that_are_shown() {
+    let mut window = window();
+    open(&mut window, Demo::Cutting);
+    let pieces = |app: &App| [app.session(), app.shown()].map(|s| s.document().pattern.pieces.len());
+    let [own, shown] = pieces(app(&window));
+    assert!(own != shown && shown == 4, "{own} and {shown}");
+    from_menu(&mut window, "File", "Marker…");
+    marker::enter(&mut window, egui::accesskit::Role::SpinButton, "Search", "0");
+    window.get_by_label("Make the marker").click();
+    window.run_steps(4);
+    marker::wait_for(&mut window, "Marker: 4 pieces on");
+    key(&mut window, Modifiers::NONE, Key::Escape);
+    assert!(window.query_by_label("Make it again").is_none());
+    assert_eq!(pieces(app(&window)), [own, shown], "the walk goes on");
+    key(&mut window, Modifiers::NONE, Key::Escape);
+    assert_eq!(pieces(app(&window)), [own, own]);
+}

@@ -2,7 +2,7 @@
 
 use egui::accesskit::Role;
 
-use super::environment::{from_theme, keep_preferences, kept};
+use super::environment::{from_theme, keep_preferences, kept, open_theme};
 use super::*;
 
 #[test]
@@ -39,6 +39,27 @@ fn depth_of_field_is_chosen_with_its_aperture_and_kept() {
     assert!(next.query_by_role_and_label(Role::Slider, "Aperture").is_none());
     let off = serde_json::json!({ "is_on": false, "f_number": 22.0 });
     assert_eq!(kept(&preferences)["depth_of_field"], off);
+}
+
+#[test]
+fn a_parallel_projection_has_no_depth_of_field() {
+    use toile::ui::actions::Action;
+    let mut window = window();
+    from_theme(&mut window, "Depth of field");
+    window.get_by_role_and_label(Role::Slider, "Aperture");
+    edit(&mut window, |app, ctx| app.act(ctx, Action::ToggleParallel));
+    assert!(window.query_by_role_and_label(Role::Slider, "Aperture").is_none(), "its bar is closed");
+    open_theme(&mut window);
+    for entry in ["Depth of field", "Set aperture"] {
+        assert!(window.get_by_label(entry).accesskit_node().is_disabled(), "{entry}");
+    }
+    window.get_by_label("Depth of field").hover();
+    window.run_steps(60);
+    assert!(window.query_by_label_contains("In parallel projection everything is sharp").is_some());
+    key(&mut window, Modifiers::NONE, Key::Escape);
+    edit(&mut window, |app, ctx| app.act(ctx, Action::ToggleParallel));
+    assert_eq!(app(&window).f_number(), Some(2.8), "it is as it was");
+    window.get_by_role_and_label(Role::Slider, "Aperture");
 }
 
 #[test]

@@ -11,6 +11,30 @@ fn drape(window: &Window) -> Option<toile::sim::DrapeState> {
 }
 
 #[test]
+fn the_status_bar_says_what_can_be_done_with_dressed_cloth() {
+    let mut window = window();
+    let corner = Pos2::new(2.0, 718.0);
+    move_to(&mut window, corner);
+    assert!(window.query_by_label_contains("then press Wrap").is_some());
+    let mut window = super::hand::dressed(window);
+    move_to(&mut window, corner);
+    window.run_steps(3);
+    assert!(window.query_by_label_contains("then press Wrap").is_none());
+    assert!(
+        window
+            .query_by_label_contains(
+                "D: drag the cloth · P: pin it · Space: drape it · View › Map: read its fit"
+            )
+            .is_some()
+    );
+    key(&mut window, Modifiers::NONE, Key::V);
+    let middle = pane(&window, "Body pane").center();
+    move_to(&mut window, middle);
+    window.run_steps(2);
+    assert!(window.query_by_label_contains("D: drag the cloth · P: pin it · Space: drape it").is_some());
+}
+
+#[test]
 fn the_button_drapes_and_space_pauses() {
     let mut window = dressed_window();
     let (before, steps) = (positions(&window), app(&window).session().step_labels().count());

@@ -44,12 +44,17 @@ fn drop_file(window: &mut Window, path: &Path) {
 
 /// Chooses an entry of View › Theme.
 pub(super) fn from_theme(window: &mut Window, entry: &str) {
+    open_theme(window);
+    act(window, entry);
+}
+
+/// Opens View › Theme.
+pub(super) fn open_theme(window: &mut Window) {
     act(window, "View");
     window.get_by_label_contains("Theme").scroll_to_me();
     window.run_steps(30);
     window.get_by_label_contains("Theme").click();
     window.run_steps(4);
-    act(window, entry);
 }
 
 /// Chooses the image at `path` from the menu. False where the desktop has a dialog of its own.
@@ -86,6 +91,21 @@ fn rotate(window: &mut Window) {
     window.run_steps(4);
 }
 
+/// Types the rotation into the field beside its slider.
+fn type_rotation(window: &mut Window, degrees: &str) {
+    let rail = window.get_by_role_and_label(Role::Slider, "Rotation").rect();
+    let fields = window.query_all_by_role(Role::SpinButton).map(|field| field.rect());
+    let is_beside =
+        |field: &Rect| (field.center().y - rail.center().y).abs() < 6.0 && field.left() > rail.left();
+    let field = fields.filter(is_beside).min_by(|a, b| a.left().total_cmp(&b.left())).expect("a field");
+    drag(window, &[field.center()], PointerButton::Primary);
+    key(window, Modifiers::COMMAND, Key::A);
+    window.event(Event::Text(degrees.to_owned()));
+    window.run_steps(2);
+    key(window, Modifiers::NONE, Key::Enter);
+    window.run_steps(4);
+}
+
 pub(super) fn keep_preferences(window: &mut Window, path: &Path) {
     edit(window, |app, ctx| app.keep_preferences(ctx, path.to_owned()));
 }
@@ -95,7 +115,7 @@ pub(super) fn kept(path: &Path) -> serde_json::Value {
 }
 
 #[test]
-fn an_environment_map_is_chosen_rotated_and_kept_until_another_light_is() {
+fn an_environment_map_is_chosen_rotated_and_kept_beside_other_lights() {
     let (folder, preferences) = folder();
     let garden = folder.path().join("garden.hdr");
     let mut window = window();
@@ -115,6 +135,13 @@ fn an_environment_map_is_chosen_rotated_and_kept_until_another_light_is() {
     let lighting = &kept(&preferences)["lighting"];
     assert_eq!((&lighting["light"], &lighting["rotation"]), (&"evening".into(), &rotation.into()));
     assert_eq!(lighting["environment"], garden.display().to_string());
+    for (typed, kept_as) in [("450", 90), ("-90", 270), ("360", 360)] {
+        type_rotation(&mut window, typed);
+        assert_eq!(app(&window).environment(), Some((garden.as_path(), kept_as)), "{typed}");
+        assert_eq!(kept(&preferences)["lighting"]["rotation"], kept_as, "{typed}");
+    }
+    rotate(&mut window);
+    let rotation = app(&window).environment().expect("a light").1;
     act(&mut window, "Done");
     assert!(window.query_by_role_and_label(Role::Slider, "Rotation").is_none());
 
@@ -124,7 +151,21 @@ fn an_environment_map_is_chosen_rotated_and_kept_until_another_light_is() {
     from_theme(&mut next, "Studio light");
     assert_eq!(app(&next).environment(), None);
     let lighting = &kept(&preferences)["lighting"];
-    assert_eq!((&lighting["light"], &lighting["environment"]), (&"studio".into(), &serde_json::Value::Null));
+    assert_eq!((&lighting["light"], &lighting["is_put_aside"]), (&"studio".into(), &true.into()));
+    assert_eq!(lighting["environment"], garden.display().to_string(), "it is kept to go back to");
+
+    // Another start reads it only when it is wanted.
+    let mut last = super::window();
+    keep_preferences(&mut last, &preferences);
+    assert_eq!(app(&last).environment(), None);
+    for window in [&mut next, &mut last] {
+        from_theme(window, "Light by environment map");
+        wait(window, "the image", |app| app.environment() == Some((garden.as_path(), rotation)));
+        assert_eq!(kept(&preferences)["lighting"].get("is_put_aside"), None);
+        from_theme(window, "Light by environment map");
+        assert_eq!(app(window).environment(), None);
+        assert_eq!(kept(&preferences)["lighting"]["light"], "studio");
+    }
 }
 
 #[test]
@@ -146,6 +187,11 @@ fn an_image_that_cannot_be_read_leaves_the_light_as_it_is() {
     std::fs::write(&words, "no image").expect("a file");
     drop_file(&mut window, &words);
     wait_for_words(&mut window, "words.hdr could not be read: it is neither PNG, JPEG nor Radiance HDR");
+    let half = folder.path().join("half.hdr");
+    let whole = std::fs::read(&garden).expect("the image");
+    std::fs::write(&half, &whole[..whole.len() / 2]).expect("a file");
+    drop_file(&mut window, &half);
+    wait_for_words(&mut window, "half.hdr could not be read: it is damaged: ");
     assert_eq!(app(&window).environment(), lit);
     assert_eq!(kept(&preferences)["lighting"]["environment"], garden.display().to_string());
 }

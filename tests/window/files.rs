@@ -469,20 +469,31 @@ fn a_garment_as_obj_has_its_materials_beside_it_and_replaces_nothing_unasked() {
     assert!(there("other.mtl").exists() && window.query_by_label("Replace them").is_none());
 }
 
+/// Chooses File › Tech pack… in German, to be written to `path`. False where the desktop has a dialog of its own.
+fn begin_tech_pack(window: &mut Window, path: &Path) -> bool {
+    super::hand::choose(window, "File", "Tech pack…");
+    window.get_by_label("In which language is the tech pack to be?");
+    act(window, "Deutsch");
+    act(window, "Choose a file…");
+    let writes = write_asked(window, path);
+    let is_making = |window: &Window| window.query_by_label("The tech pack is being made").is_some();
+    for _ in 0..6 {
+        if !is_making(window) {
+            window.run_steps(1);
+        }
+    }
+    writes
+}
+
 #[test]
 fn the_tech_pack_is_made_behind_the_window() {
     let folder = tempfile::tempdir().expect("a folder");
     let path = folder.path().join("pack.pdf");
     let mut window = super::hand::dressed_window();
-    super::hand::choose(&mut window, "File", "Tech pack…");
-    window.get_by_label("In which language is the tech pack to be?");
-    window.get_by_label("Deutsch").click();
-    window.run_steps(3);
-    window.get_by_label("Choose a file…").click();
-    window.run_steps(3);
-    if !write_asked(&mut window, &path) {
+    if !begin_tech_pack(&mut window, &path) {
         return;
     }
+    assert!(window.query_by_label("The tech pack is being made").is_some(), "the progress is shown");
     let since = std::time::Instant::now();
     while !path.exists() && since.elapsed().as_secs() < 120 {
         window.run_steps(1);
@@ -494,4 +505,21 @@ fn the_tech_pack_is_made_behind_the_window() {
     assert!(words.contains("Produktionsblatt") && !words.contains("Tech pack"), "{words}");
     assert!(words.contains("unbenannt") && !words.contains("untitled"), "{words}");
     assert!(window.query_by_label_contains("Written: ").is_some());
+    assert!(window.query_by_label("The tech pack is being made").is_none());
+}
+
+#[test]
+fn a_tech_pack_that_is_stopped_writes_nothing() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("pack.pdf");
+    let mut window = super::hand::dressed_window();
+    if !begin_tech_pack(&mut window, &path) {
+        return;
+    }
+    window.get_by_label("Stop").click_accesskit();
+    window.run_steps(2);
+    assert!(window.query_by_label_contains("The tech pack was stopped: nothing is written").is_some());
+    std::thread::sleep(Duration::from_millis(500));
+    window.run_steps(4);
+    assert!(!path.exists() && window.query_by_label("The tech pack is being made").is_none());
 }

@@ -38,7 +38,7 @@ fn type_width(window: &mut Window, text: &str) {
 }
 
 /// Waits for a node that contains `label`, for at most 30 seconds.
-fn wait_for(window: &mut Window, label: &str) {
+pub fn wait_for(window: &mut Window, label: &str) {
     let start = Instant::now();
     while window.query_by_label_contains(label).is_none() {
         assert!(start.elapsed() < Duration::from_secs(30), "no {label}");

@@ -408,26 +408,70 @@ fn a_picture_of_any_size_is_written_with_nothing_behind_it() {
 }
 
 #[test]
-fn f6_goes_through_pattern_body_panel_and_tools_and_round_and_with_shift_back() {
+fn f6_goes_through_panes_and_bars_and_round_and_with_shift_back() {
     let mut window = window();
     let focused = |window: &Window| {
         let id = window.ctx.memory(|m| m.focused());
-        ["Pattern pane", "Body pane", "Marks", "Mark"].into_iter().find(|label| {
+        let labels = ["Pattern pane", "Body pane", "Marks", "Mark", "Move", "File"];
+        let known = labels.into_iter().find(|label| {
             window.query_all_by_label(label).any(|node| node.accesskit_node().is_focused()) && id.is_some()
-        })
+        });
+        known.or(id.map(|_| "something"))
     };
     let mut seen = Vec::new();
-    for _ in 0..5 {
+    for _ in 0..6 {
         key(&mut window, Modifiers::NONE, Key::F6);
         seen.push(focused(&window).unwrap_or("nothing"));
     }
-    assert_eq!(seen, ["Pattern pane", "Body pane", "Marks", "Mark", "Pattern pane"]);
+    // After the toolbar the strip of tools, the small buttons of the body pane and the menus.
+    assert_eq!(seen, ["Pattern pane", "Body pane", "Marks", "Mark", "Move", "something"]);
+    for _ in 0..2 {
+        key(&mut window, Modifiers::NONE, Key::F6);
+        seen.push(focused(&window).unwrap_or("nothing"));
+    }
+    assert_eq!(seen[6..], ["File", "Pattern pane"]);
     seen.clear();
-    for _ in 0..4 {
+    for _ in 0..7 {
         key(&mut window, Modifiers::SHIFT, Key::F6);
         seen.push(focused(&window).unwrap_or("nothing"));
     }
-    assert_eq!(seen, ["Mark", "Marks", "Body pane", "Pattern pane"]);
+    assert_eq!(seen, ["File", "something", "Move", "Mark", "Marks", "Body pane", "Pattern pane"]);
+    // From anywhere in a bar it goes on to the next one.
+    (0..3).for_each(|_| key(&mut window, Modifiers::NONE, Key::F6));
+    assert_eq!(focused(&window), Some("Mark"));
+    key(&mut window, Modifiers::NONE, Key::Tab);
+    assert_eq!(focused(&window), Some("something"));
+    key(&mut window, Modifiers::NONE, Key::F6);
+    assert_eq!(focused(&window), Some("Move"));
+}
+
+#[test]
+fn esc_leads_from_bars_back_to_the_pane_and_closes_those_over_it() {
+    let mut window = window();
+    let is_focused = |window: &Window, label: &str| {
+        window.query_all_by_label(label).any(|node| node.accesskit_node().is_focused())
+    };
+    let go = |window: &mut Window, held: Modifiers, times: usize| {
+        (0..times).for_each(|_| key(window, held, Key::F6));
+    };
+    go(&mut window, Modifiers::NONE, 4);
+    assert!(is_focused(&window, "Mark"), "the first of the toolbar");
+    key(&mut window, Modifiers::NONE, Key::Escape);
+    assert!(is_focused(&window, "Body pane"), "the pane that had it last");
+    go(&mut window, Modifiers::SHIFT, 5);
+    assert!(is_focused(&window, "Mark"), "past the pattern pane");
+    key(&mut window, Modifiers::NONE, Key::Escape);
+    assert!(is_focused(&window, "Pattern pane"));
+    super::environment::from_theme(&mut window, "Depth of field");
+    for _ in 0..12 {
+        if !is_focused(&window, "Aperture") {
+            go(&mut window, Modifiers::NONE, 1);
+        }
+    }
+    assert!(is_focused(&window, "Aperture"), "the bar over the body pane is in the round");
+    key(&mut window, Modifiers::NONE, Key::Escape);
+    assert!(window.query_by_label("Aperture").is_none(), "it is closed");
+    assert!(is_focused(&window, "Body pane"));
 }
 
 #[test]

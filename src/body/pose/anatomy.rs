@@ -10,6 +10,7 @@ use glam::{DMat3, DQuat, DVec3};
 use crate::body::pose::regions::JOINTS;
 use crate::body::pose::{Pose, hanging, shortest};
 use crate::body::skeleton::Skeleton;
+use crate::geometry::words::{Words, within_quotes, words};
 
 /// Cosine of the abduction below which two axes count as parallel (gimbal lock).
 const LOCKED: f64 = 1e-9;
@@ -172,16 +173,25 @@ impl Limb {
         self.movements.iter().copied().find(|movement| movement.axis == axis)
     }
 
-    /// Describes what is wrong with an angle, if anything.
-    fn problem(self, axis: Axis, degrees: f64) -> Option<String> {
-        let (title, axis_name) = (self.name(), axis.name());
+    /// Describes what is wrong with an angle, if anything. Joint and axis have their names on the command line.
+    fn problem(self, axis: Axis, degrees: f64) -> Option<Words> {
+        let (joint, axis_name) = (self.name(), axis.name());
         let Some(Movement { range: [least, largest], .. }) = self.movement(axis) else {
             let known: Vec<&str> = self.movements.iter().map(|m| m.axis.name()).collect();
-            return Some(format!("{title} has no {axis_name}; it has {}", known.join(", ")));
+            let names = known.join(", ");
+            return Some(words!("{joint} has no {axis}; it has {names}", joint, axis = axis_name, names));
         };
         let is_in = (least - READ_ERROR..=largest + READ_ERROR).contains(&degrees);
-        let words = || format!("{title}: {axis_name} {degrees}° is out of its range, {least}° to {largest}°");
-        (!is_in).then(words)
+        (!is_in).then(|| {
+            words!(
+                "{joint}: {axis} {degrees}° is out of its range, {least}° to {largest}°",
+                joint,
+                axis = axis_name,
+                degrees,
+                least,
+                largest
+            )
+        })
     }
 }
 
@@ -206,18 +216,29 @@ pub struct JointAngle {
 
 impl JointAngle {
     /// An angle of the joint called `name`, which may end in an axis ("right_hip.abduction"); without it the joint's
-    /// first movement is meant. Err: a message that says what is wrong.
-    pub fn new(name: &str, degrees: f64) -> Result<Self, String> {
+    /// first movement is meant.
+    ///
+    /// # Errors
+    /// In words: there is no such joint or axis, or the angle is out of the joint's range.
+    pub fn new(name: &str, degrees: f64) -> Result<Self, Words> {
         let (joint, axis) = name.split_once('.').map_or((name, None), |(joint, axis)| (joint, Some(axis)));
         let limb = Limb::named(joint).ok_or_else(|| {
             let known: Vec<String> = Limb::all().map(Limb::name).collect();
-            format!("the mannequin has no joint called {joint:?} that turns; there are {}", known.join(", "))
+            words!(
+                "the mannequin has no joint called \"{name}\" that turns; there are {names}",
+                name = within_quotes(joint),
+                names = known.join(", ")
+            )
         })?;
         let axis = match axis {
             None => limb.movements[0].axis,
             Some(text) => Axis::ALL.into_iter().find(|axis| axis.name() == text.trim()).ok_or_else(|| {
-                let known = Axis::ALL.map(Axis::name).join(", ");
-                format!("{}: there is no axis {text:?}; there are {known}", limb.name())
+                words!(
+                    "{joint}: there is no axis \"{axis}\"; there are {names}",
+                    joint = limb.name(),
+                    axis = within_quotes(text),
+                    names = Axis::ALL.map(Axis::name).join(", ")
+                )
             })?,
         };
         limb.problem(axis, degrees).map_or(Ok(Self { limb, axis, degrees }), Err)
@@ -233,7 +254,8 @@ impl std::str::FromStr for JointAngle {
             .split_once('=')
             .ok_or_else(|| format!("{text:?} is not JOINT=DEGREES or JOINT.AXIS=DEGREES"))?;
         let number = degrees.trim().trim_end_matches('°').parse();
-        Self::new(name, number.map_err(|_| format!("{degrees:?} is no number of degrees"))?)
+        let degrees = number.map_err(|_| format!("{degrees:?} is no number of degrees"))?;
+        Self::new(name, degrees).map_err(String::from)
     }
 }
 
@@ -315,16 +337,18 @@ impl Anatomy {
         pose.set(limb.joint, self.turn(limb, degrees));
     }
 
-    /// `pose` with these angles set and all others unchanged. Err: a message that names the joint that cannot be
-    /// turned like that.
-    pub fn with(&self, pose: &Pose, angles: &[JointAngle]) -> Result<Pose, String> {
+    /// `pose` with these angles set and all others unchanged.
+    ///
+    /// # Errors
+    /// In words, which name the joint that cannot be turned like that.
+    pub fn with(&self, pose: &Pose, angles: &[JointAngle]) -> Result<Pose, Words> {
         let mut pose = pose.clone();
         for &JointAngle { limb, axis, degrees } in angles {
             let mut all = self.angles(&pose, limb);
             all[axis as usize] = degrees;
             self.set(&mut pose, limb, all);
         }
-        pose.problem().map_or(Ok(pose), |why| Err(why.into()))
+        pose.problem().map_or(Ok(pose), Err)
     }
 }
 

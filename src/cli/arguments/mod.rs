@@ -535,7 +535,8 @@ pub struct Render {
     #[command(flatten)]
     pub picture: PictureOptions,
     /// Light from all sides out of an image of all directions (PNG, JPEG or Radiance HDR, equirectangular, twice as wide as high),
-    /// its middle before the body; its mean brightness is set to the studio's, and the lamp of --light stays
+    /// its middle before the body; its mean brightness is set to the studio's, and its sun is the lamp; the lamp of --light stays if it
+    /// has none
     #[arg(long, value_name = "IMAGE")]
     pub environment: Option<PathBuf>,
     /// Rotation of the environment about the vertical axis, 0 to 360 degrees, counter-clockwise as seen from above: at 90 its middle

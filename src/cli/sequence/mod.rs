@@ -248,7 +248,7 @@ fn moving(snapshot: &Snapshot, document: &Document, arguments: &Repose) -> Resul
         return Err(Failure::input(&arguments.project, "there is no cloth on the body"));
     };
     let worn = Worn { garment, cloth: &snapshot.cloth, pattern: &source.pattern, document };
-    let with = worn.moving(arguments.textures.worn(USUAL_SIDE)).map_err(Failure::Limit)?;
+    let with = worn.moving(arguments.textures.worn(USUAL_SIDE)).map_err(|why| Failure::Limit(why.into()))?;
     with.left_out.iter().for_each(|line| output::complain(&format!("note: {line}")));
     Ok(with)
 }

@@ -18,7 +18,7 @@ pub(super) struct Around {
 impl Around {
     const EMPTY: Self = Self { lower: Vec3A::INFINITY, upper: Vec3A::NEG_INFINITY };
 
-    fn of(exact: &Aabb) -> Self {
+    pub fn of(exact: &Aabb) -> Self {
         let [lower, upper] = [exact.lower.as_vec3a(), exact.upper.as_vec3a()];
         Self {
             lower: Vec3A::from_array(lower.to_array().map(f32::next_down)),
@@ -30,7 +30,7 @@ impl Around {
         Self { lower: self.lower.min(other.lower), upper: self.upper.max(other.upper) }
     }
 
-    fn meets(&self, other: &Self) -> bool {
+    pub fn meets(&self, other: &Self) -> bool {
         (self.lower.cmple(other.upper) & self.upper.cmpge(other.lower)).all()
     }
 }
@@ -45,14 +45,51 @@ pub(super) struct Broad {
     items: Vec<Around>,
 }
 
+/// Two items whose boxes meet.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Meeting {
+    /// The first, as an index in the order of the leaves.
+    pub one: u32,
+    /// The second, of the same tree or of the other.
+    pub two: u32,
+    pub is_of_other: bool,
+}
+
+/// Pairs for a parallel task.
+pub(super) type Pairs = Vec<Meeting>;
+
 impl Broad {
-    /// Moves the boxes, in the order in which the tree was built; builds it where their number is another.
-    pub fn fit(&mut self, boxes: &[Aabb]) {
-        if self.tree.items.len() != boxes.len() {
-            self.tree = Bvh::new(boxes);
-        }
-        self.items.clear();
-        self.items.extend(self.tree.items.iter().map(|&i| Around::of(&boxes[i as usize])));
+    /// A hierarchy over boxes that stay.
+    pub fn over(boxes: &[Aabb]) -> Self {
+        let mut broad = Self::default();
+        broad.plant(boxes);
+        broad.fit(broad.order().iter().map(|&i| Around::of(&boxes[i as usize])).collect());
+        broad
+    }
+
+    /// Builds the tree over `boxes`.
+    pub fn plant(&mut self, boxes: &[Aabb]) {
+        self.tree = Bvh::new(boxes);
+    }
+
+    /// Whether the tree is over `count` boxes.
+    pub fn is_over(&self, count: usize) -> bool {
+        self.tree.items.len() == count
+    }
+
+    /// The items in the order of the leaves.
+    pub fn order(&self) -> &[u32] {
+        &self.tree.items
+    }
+
+    /// The box of each item, in the order of the leaves.
+    pub fn items(&self) -> &[Around] {
+        &self.items
+    }
+
+    /// Moves the boxes, which come in the order of the leaves.
+    pub fn fit(&mut self, items: Vec<Around>) {
+        self.items = items;
         self.nodes.resize(self.tree.nodes.len(), Around::EMPTY);
         // Children come after their parents.
         for (at, node) in self.tree.nodes.iter().enumerate().rev() {
@@ -66,21 +103,31 @@ impl Broad {
         }
     }
 
-    /// Calls `look` for every two items whose boxes meet, and `look_at` for every item and item of `other` whose boxes
-    /// meet. The results come in an order that does not depend on threads.
-    pub fn search<T: Default + Send>(
+    /// Every two items whose boxes meet and of which `is_pair` is true, and every item and item of `other` of which `is_pair_with` is, in
+    /// an order that depends only on the shapes of the trees.
+    pub fn pairs(
         &self,
         other: Option<&Self>,
-        look: impl Fn(u32, u32, &mut T) + Sync,
-        look_at: impl Fn(u32, u32, &mut T) + Sync,
-    ) -> Vec<T> {
+        is_pair: impl Fn(u32, u32) -> bool + Sync,
+        is_pair_with: impl Fn(u32, u32) -> bool + Sync,
+    ) -> Vec<Pairs> {
         let count = self.nodes.len();
         let share = |share: usize| {
-            let (mut found, mut open) = (T::default(), Vec::new());
+            let (mut found, mut open) = (Pairs::new(), Vec::new());
             for node in share * SHARE..count.min((share + 1) * SHARE) {
-                self.pairs_below(node as u32, &mut open, |s, t| look(s, t, &mut found));
-                if let (Some(other), true) = (other, self.tree.nodes[node].is_leaf()) {
-                    self.pairs_with(node as u32, other, |s, t| look_at(s, t, &mut found));
+                let node = node as u32;
+                self.pairs_below(node, &mut open, |one, two| {
+                    let items = [one, two].map(|at| self.tree.items[at as usize]);
+                    if is_pair(items[0], items[1]) {
+                        found.push(Meeting { one, two, is_of_other: false });
+                    }
+                });
+                if let (Some(other), true) = (other, self.tree.nodes[node as usize].is_leaf()) {
+                    self.pairs_with(node, other, |one, two| {
+                        if is_pair_with(self.tree.items[one as usize], other.tree.items[two as usize]) {
+                            found.push(Meeting { one, two, is_of_other: true });
+                        }
+                    });
                 }
             }
             found
@@ -94,9 +141,8 @@ impl Broad {
         if tree.nodes[node as usize].is_leaf() {
             let range = self.range(node);
             for k in range.clone() {
-                let first = tree.items[k];
                 let others = (k + 1..range.end).filter(|&m| self.items[k].meets(&self.items[m]));
-                others.for_each(|m| found(first, tree.items[m]));
+                others.for_each(|m| found(k as u32, m as u32));
             }
             return;
         }
@@ -109,7 +155,7 @@ impl Broad {
             if one.is_leaf() && two.is_leaf() {
                 for k in self.range(a) {
                     let others = self.range(b).filter(|&m| self.items[k].meets(&self.items[m]));
-                    others.for_each(|m| found(tree.items[k], tree.items[m]));
+                    others.for_each(|m| found(k as u32, m as u32));
                 }
             } else if two.is_leaf() || (!one.is_leaf() && one.count >= two.count) {
                 open.extend([[a + 1, b], [one.right, b]]);
@@ -138,7 +184,7 @@ impl Broad {
             if node.is_leaf() {
                 for m in other.range(at) {
                     let ones = self.range(leaf).filter(|&k| self.items[k].meets(&other.items[m]));
-                    ones.for_each(|k| found(self.tree.items[k], other.tree.items[m]));
+                    ones.for_each(|k| found(k as u32, m as u32));
                 }
             } else {
                 (open[count], open[count + 1]) = (node.right, at + 1);

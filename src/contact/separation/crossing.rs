@@ -1,6 +1,8 @@
 //! Features that intersect at a detection, and so get no plane to separate them.
 
-use crate::contact::separation::Separation;
+use rayon::prelude::*;
+
+use crate::contact::separation::{LEAST_SHARE, Separation};
 use crate::geometry::crossings::segment_meets_triangle;
 
 /// Pairs of features that may pass through each other, because they intersect; sorted.
@@ -26,25 +28,15 @@ pub(super) struct Crossings {
 impl Crossings {
     /// Finds the intersections of the cloth at its anchors.
     pub fn found(this: &Separation, is_inside: impl Fn(usize) -> bool + Sync) -> Self {
-        let x = &this.anchors;
-        let all = this.search(
-            |s, t, found: &mut Self| {
-                for [s, t] in [[s, t], [t, s]] {
-                    let vs = this.cloth.triangles[t as usize];
-                    for e in this.cloth.edges_of(s) {
-                        let is_through = !this.joined(&this.cloth.edges[e as usize], &vs)
-                            && segment_meets_triangle(this.cloth.ends(x, e), this.cloth.corners(x, t));
-                        if is_through {
-                            found.places += 1;
-                            found.vertices.extend(this.cloth.edges[e as usize].map(|v| [v, t]));
-                            let edges = this.cloth.triangle_edges[t as usize];
-                            found.edges.extend(edges.map(|f| [e.min(f), e.max(f)]));
-                        }
-                    }
-                }
-            },
+        let mut all = this.search(
+            |s, t, found: &mut Self| found.add_cloth(this, s, t),
             |s, t, found| found.add_obstacle(this, s, t),
         );
+        all.par_extend(this.beside.triangles.par_chunks(LEAST_SHARE).map(|pairs| {
+            let mut found = Self::default();
+            pairs.iter().for_each(|&[s, t]| found.add_cloth(this, s, t));
+            found
+        }));
         let mut whole = Self::default();
         for found in all {
             whole.places += found.places;
@@ -60,6 +52,27 @@ impl Crossings {
             whole.look_inside(this, is_inside);
         }
         whole
+    }
+
+    fn add_cloth(&mut self, this: &Separation, s: u32, t: u32) {
+        let x = &this.anchors;
+        let [one, other] = [s, t].map(|t| &this.placed[t as usize].around);
+        if !one.meets(other) {
+            return;
+        }
+        for [s, t] in [[s, t], [t, s]] {
+            let vs = this.cloth.triangles[t as usize];
+            for e in this.cloth.edges_of(s) {
+                let is_through = !this.joined(&this.cloth.edges[e as usize], &vs)
+                    && segment_meets_triangle(this.cloth.ends(x, e), this.cloth.corners(x, t));
+                if is_through {
+                    self.places += 1;
+                    self.vertices.extend(this.cloth.edges[e as usize].map(|v| [v, t]));
+                    let edges = this.cloth.triangle_edges[t as usize];
+                    self.edges.extend(edges.map(|f| [e.min(f), e.max(f)]));
+                }
+            }
+        }
     }
 
     fn add_obstacle(&mut self, this: &Separation, s: u32, t: u32) {
@@ -83,7 +96,6 @@ impl Crossings {
     }
 
     fn look_inside(&mut self, this: &Separation, is_inside: impl Fn(usize) -> bool + Sync) {
-        use rayon::prelude::*;
         let count = this.anchors.len();
         let inside: Vec<bool> = (0..count).into_par_iter().with_min_len(64).map(&is_inside).collect();
         if inside.contains(&true) {

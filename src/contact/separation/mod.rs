@@ -12,6 +12,7 @@
 
 mod beside;
 mod broad;
+mod candidates;
 mod crossing;
 mod features;
 mod repulsion;
@@ -25,12 +26,12 @@ use glam::DVec3;
 use rayon::prelude::*;
 use serde::Serialize;
 
-use crate::contact::separation::beside::Beside;
-use crate::contact::separation::broad::Broad;
+use crate::contact::separation::beside::{Beside, Group};
+use crate::contact::separation::candidates::{Candidates, Moving};
 use crate::contact::separation::crossing::Crossings;
 use crate::contact::separation::features::Seen;
-use crate::contact::separation::repulsion::Pair;
 pub use crate::contact::separation::repulsion::Touch;
+use crate::contact::separation::repulsion::{Pair, RestLengths};
 pub use crate::contact::separation::topology::Obstacle;
 use crate::contact::separation::topology::{PlacedTriangle, Topology};
 use crate::geometry::adjacency::Adjacency;
@@ -47,7 +48,7 @@ const LEAST_ROOM: f64 = 0.2;
 const SWEEPS: usize = 3;
 /// Least number of vertices, or nodes of a tree, for a parallel task.
 const LEAST_SHARE: usize = 256;
-/// Pairs of features of neighbouring triangles for a parallel task.
+/// Groups of features of neighbouring triangles for a parallel task.
 const LEAST_BESIDE: usize = 2048;
 
 /// A half-space: normal · x ≥ height.
@@ -66,10 +67,9 @@ pub struct Separation {
     names: Option<Vec<u32>>,
     /// Distance that the cloth keeps from itself, metres.
     thickness: f64,
-    /// Rest length (m) of each edge between sewn vertices, the smaller vertex first, sorted. Features that are joined
-    /// by an edge keep less than the thickness.
-    rest: Vec<([u32; 2], f64)>,
-    broad: Broad,
+    /// Rest lengths of the edges. Features that are joined by an edge keep less than the thickness.
+    rest: RestLengths,
+    candidates: Candidates,
     beside: Beside,
     /// Positions of the vertices at the last detection (anchors), metres; empty before the first.
     anchors: Vec<DVec3>,
@@ -131,6 +131,8 @@ struct Found {
     pairs: Vec<Pair>,
     looked_at: u64,
     touching: u64,
+    /// Number of groups of features of neighbouring triangles that were looked at.
+    groups: u64,
     /// Smallest distance of two features of the cloth, metres.
     nearest: Option<f64>,
 }
@@ -151,13 +153,13 @@ impl Separation {
         Self {
             beside,
             obstacle,
-            rest: repulsion::rest_lengths(&adjacency.edges, rest, names.as_deref()),
+            rest: RestLengths::new(&adjacency.edges, rest, names.as_deref()),
             thickness,
             pairs: Vec::new(),
             come: Vec::new(),
             cloth,
             names,
-            broad: Broad::default(),
+            candidates: Candidates::default(),
             anchors: Vec::new(),
             reach: Vec::new(),
             placed: Vec::new(),
@@ -174,6 +176,7 @@ impl Separation {
     pub fn set_obstacle(&mut self, obstacle: Option<Arc<Obstacle>>) {
         self.obstacle = obstacle;
         self.anchors.clear();
+        self.candidates.forget();
         self.is_clean = false;
     }
 
@@ -203,11 +206,14 @@ impl Separation {
         triangles
             .map(|t| PlacedTriangle::new(&self.cloth, &self.anchors, &self.reach, t))
             .collect_into_vec(&mut self.placed);
-        let box_of = |placed: &PlacedTriangle| grown(&placed.around, placed.farthest + self.thickness / 2.0);
-        let boxes: Vec<Aabb> = self.placed.par_iter().with_min_len(LEAST_SHARE).map(box_of).collect();
-        self.broad.fit(&boxes);
+        let Self { anchors: x, reach, placed, thickness, beside, obstacle, candidates, .. } = self;
+        let cloth = Moving { x, reach, placed, thickness: *thickness };
+        candidates.fit(cloth, obstacle.as_deref(), |s, t| beside.are(s, t));
         let crossings = if self.is_clean { Crossings::default() } else { Crossings::found(self, is_inside) };
+        self.beside.see(&self.placed);
         let found = self.gathered(&crossings);
+        let groups = found.iter().map(|found| found.groups).sum();
+        self.beside.learn(groups, &self.placed, &self.anchors);
         self.crossings = crossings.count();
         self.is_clean = crossings.is_none() && found.iter().all(|found| found.touching == 0);
         self.counters.detections += 1;
@@ -219,14 +225,14 @@ impl Separation {
         self.sort(&found);
     }
 
-    /// Calls `look` for every two triangles of the cloth that may be near each other, and `look_at_obstacle` for every triangle
-    /// of the cloth and triangle of the obstacle. The results come in an order that does not depend on threads.
+    /// Calls `look` for every two triangles of the cloth that may be near each other and are not neighbours, and `look_at_obstacle`
+    /// for every triangle of the cloth and triangle of the obstacle. The results come in an order that does not depend on threads.
     fn search<T: Default + Send>(
         &self,
         look: impl Fn(u32, u32, &mut T) + Sync,
         look_at_obstacle: impl Fn(u32, u32, &mut T) + Sync,
     ) -> Vec<T> {
-        self.broad.search(self.obstacle.as_deref().map(|obstacle| &obstacle.broad), look, look_at_obstacle)
+        self.candidates.search(self.obstacle.as_deref(), look, look_at_obstacle)
     }
 
     fn gathered(&self, crossings: &Crossings) -> Vec<Found> {
@@ -234,7 +240,7 @@ impl Separation {
             |s, t, found| {
                 let [own, other] = [s, t].map(|t| &self.placed[t as usize]);
                 let far = own.farthest + other.farthest + self.thickness;
-                if self.beside.are(s, t) || own.is_off(other, far) || other.is_off(own, far) {
+                if own.is_off(other, far) || other.is_off(own, far) {
                     return;
                 }
                 self.cloth.corners_of(s).for_each(|k| self.vertex_at([s, t], k, crossings, found));
@@ -245,20 +251,28 @@ impl Separation {
             },
             |s, t, found| self.at_obstacle(s, t, crossings, found),
         );
-        let corners = self.beside.corners.par_chunks(LEAST_BESIDE).map(|pairs| {
-            let mut found = Found::default();
-            pairs.iter().for_each(|&(s, k, t)| self.vertex_at([s, t], k.into(), crossings, &mut found));
-            found
+        let corners = self.beside.corners.par_chunks(LEAST_BESIDE).map(|groups| {
+            self.beside_of(groups, |group, found| {
+                group.corners().for_each(|k| self.vertex_at(group.triangles, k, crossings, found));
+            })
         });
         found.par_extend(corners);
-        let sides = self.beside.sides.par_chunks(LEAST_BESIDE).map(|pairs| {
-            let mut found = Found::default();
-            for &(s, t, [k, m]) in pairs {
-                self.edges_at([s, t], [k.into(), m.into()], crossings, &mut found);
-            }
-            found
+        let sides = self.beside.sides.par_chunks(LEAST_BESIDE).map(|groups| {
+            self.beside_of(groups, |group, found| {
+                group.sides().for_each(|sides| self.edges_at(group.triangles, sides, crossings, found));
+            })
         });
         found.par_extend(sides);
+        found
+    }
+
+    /// What `look` finds in those of the `groups` that are not known to be too far apart.
+    fn beside_of(&self, groups: &[Group], look: impl Fn(&Group, &mut Found)) -> Found {
+        let mut found = Found::default();
+        for group in groups.iter().filter(|group| !self.beside.are_off(group, self.thickness)) {
+            found.groups += 1;
+            look(group, &mut found);
+        }
         found
     }
 

@@ -40,15 +40,39 @@ pub struct Touch<'a> {
     pub ease: f64,
 }
 
-/// Rest length (m) of each edge between sewn vertices, the smaller first, sorted; of several edges the shortest
-/// counts. `names` gives for each vertex the one it is sewn to (None: itself).
-pub(super) fn rest_lengths(edges: &[[u32; 2]], rest: &[f64], names: Option<&[u32]>) -> Vec<([u32; 2], f64)> {
-    let name = |v: u32| names.map_or(v, |names| names[v as usize]);
-    let named = |[a, b]: [u32; 2]| [name(a).min(name(b)), name(a).max(name(b))];
-    let mut all: Vec<([u32; 2], f64)> = edges.iter().zip(rest).map(|(e, l)| (named(*e), *l)).collect();
-    all.sort_by(|(a, l), (b, k)| a.cmp(b).then(l.total_cmp(k)));
-    all.dedup_by_key(|(edge, _)| *edge);
-    all
+/// Rest lengths of the edges between sewn vertices, found by their ends.
+#[derive(Clone, Debug, Default)]
+pub(super) struct RestLengths {
+    /// For each name the index in `ends` of its first edge; then their number.
+    starts: Vec<u32>,
+    /// The larger name at the end of each edge, and its rest length, metres; of several edges the shortest counts.
+    ends: Vec<(u32, f64)>,
+}
+
+impl RestLengths {
+    /// The lengths `rest` (m) of `edges`. `names` gives for each vertex the one it is sewn to (None: itself).
+    pub fn new(edges: &[[u32; 2]], rest: &[f64], names: Option<&[u32]>) -> Self {
+        let name = |v: u32| names.map_or(v, |names| names[v as usize]);
+        let named = |[a, b]: [u32; 2]| [name(a).min(name(b)), name(a).max(name(b))];
+        let mut all: Vec<([u32; 2], f64)> = edges.iter().zip(rest).map(|(e, l)| (named(*e), *l)).collect();
+        all.sort_by(|(a, l), (b, k)| a.cmp(b).then(l.total_cmp(k)));
+        all.dedup_by_key(|(edge, _)| *edge);
+        let count = all.iter().map(|([_, larger], _)| *larger as usize + 1).max().unwrap_or(0);
+        let mut starts = vec![0; count + 1];
+        all.iter().for_each(|([smaller, _], _)| starts[*smaller as usize + 1] += 1);
+        (0..count).for_each(|v| starts[v + 1] += starts[v]);
+        Self { starts, ends: all.into_iter().map(|([_, larger], length)| (larger, length)).collect() }
+    }
+
+    /// Rest length of the edge between two names, metres; infinite where there is none.
+    fn between(&self, a: u32, b: u32) -> f64 {
+        let (smaller, larger) = (a.min(b) as usize, a.max(b));
+        let [Some(&from), Some(&to)] = [self.starts.get(smaller), self.starts.get(smaller + 1)] else {
+            return f64::INFINITY;
+        };
+        let of_edge = self.ends[from as usize..to as usize].iter().find(|(end, _)| *end == larger);
+        of_edge.map_or(f64::INFINITY, |(_, length)| *length)
+    }
 }
 
 impl Separation {
@@ -69,12 +93,7 @@ impl Separation {
     /// The distance that two features keep, metres.
     fn kept(&self, one: &[u32], other: &[u32]) -> f64 {
         let name = |v: u32| self.names.as_ref().map_or(v, |names| names[v as usize]);
-        let length = |a: u32, b: u32| {
-            let edge = [name(a).min(name(b)), name(a).max(name(b))];
-            self.rest
-                .binary_search_by_key(&edge, |(edge, _)| *edge)
-                .map_or(f64::INFINITY, |at| self.rest[at].1)
-        };
+        let length = |a: u32, b: u32| self.rest.between(name(a), name(b));
         let between = one.iter().flat_map(|&a| other.iter().map(move |&b| length(a, b)));
         self.thickness.min(BESIDE * between.fold(f64::INFINITY, f64::min))
     }

@@ -17,6 +17,7 @@ use crate::cloth::ClothState;
 use crate::geometry::mesh::{TriMesh, vertex_normals};
 use crate::io::dressed::{Dressed, Frame, PieceArrays, TrimArrays};
 use crate::io::materials::Colours;
+use crate::io::wedges::{Normals, Wedges};
 
 /// Approximate number of bytes that one frame adds to the file; trims count as the body does.
 pub fn bytes_per_frame(cloth_vertices: usize, body_vertices: usize) -> usize {
@@ -38,17 +39,18 @@ pub fn write_animated(
     let cloth =
         |frame: &Frame| ClothState { positions: frame.cloth.clone(), mapped: dressed.state.mapped.clone() };
     let triangles = Dressed { state: &cloth(first), ..dressed }.laid();
-    let on_body: Vec<[u32; 3]> = triangles.iter().map(|&t| dressed.garment.triangles[t]).collect();
+    let wedges = Wedges::new(dressed.garment);
     let moved = |frame: &Frame| {
         let state = cloth(frame);
-        let normals = vertex_normals(&state.positions, &on_body);
+        let normals = Normals::new(dressed.garment, &wedges, &state.positions, &triangles);
         (state, normals)
     };
-    let states: Vec<(ClothState, Vec<DVec3>)> = frames.iter().map(moved).collect();
+    let states: Vec<(ClothState, Normals)> = frames.iter().map(moved).collect();
     for (id, name) in &dressed.garment.pieces {
         let own = || triangles.iter().copied().filter(|&t| dressed.garment.triangle_pieces[t] == *id);
-        let arrays = |(state, normals): &(ClothState, Vec<DVec3>)| {
-            PieceArrays::new(&Dressed { state, ..dressed }, *id, own(), normals, colours.textures.as_deref())
+        let arrays = |(state, normals): &(ClothState, Normals)| {
+            let dressed = Dressed { state, ..dressed };
+            PieceArrays::new(&dressed, *id, own(), (&wedges, normals), colours.textures.as_deref())
         };
         let shown = arrays(&states[0]);
         if shown.triangles.is_empty() {
@@ -61,7 +63,7 @@ pub fn write_animated(
         builder.moving((&shown.positions, &shown.normals), moves, 2);
     }
     for (part, material) in dressed.trims(colours) {
-        let arrays = |(state, normals): &(ClothState, Vec<DVec3>)| {
+        let arrays = |(state, normals): &(ClothState, Normals)| {
             TrimArrays::new(&Dressed { state, ..dressed }, part, normals)
         };
         let shown = arrays(&states[0]);

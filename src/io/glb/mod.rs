@@ -17,10 +17,11 @@ use gltf_json::{Accessor, Asset, Index, Node, Root, Scene, Texture};
 use images::Map;
 
 use crate::geometry::ids::PieceId;
-use crate::geometry::mesh::{TriMesh, vertex_normals};
+use crate::geometry::mesh::TriMesh;
 use crate::geometry::words::{Words, words};
 use crate::io::dressed::{Dressed, PieceArrays, TrimArrays};
 use crate::io::materials::{ClothMaterial, ClothTextures, Colours, ROUGHNESS, Textures};
+use crate::io::wedges::{Normals, Wedges};
 
 /// Why no file was written.
 #[derive(Debug, thiserror::Error)]
@@ -92,11 +93,11 @@ impl Builder {
     fn garment(&mut self, dressed: &Dressed<'_>, colours: &Colours) {
         let Dressed { garment, state, .. } = dressed;
         let triangles = dressed.laid();
-        let on_body: Vec<[u32; 3]> = triangles.iter().map(|&t| garment.triangles[t]).collect();
-        let normals = vertex_normals(&state.positions, &on_body);
+        let wedges = Wedges::new(garment);
+        let normals = Normals::new(garment, &wedges, &state.positions, &triangles);
         for (id, name) in &garment.pieces {
             let own = triangles.iter().copied().filter(|&t| garment.triangle_pieces[t] == *id);
-            let piece = PieceArrays::new(dressed, *id, own, &normals, colours.textures.as_deref());
+            let piece = PieceArrays::new(dressed, *id, own, (&wedges, &normals), colours.textures.as_deref());
             if !piece.triangles.is_empty() {
                 let sides = self.sides(colours, *id);
                 self.piece(name, &piece, sides);

@@ -19,6 +19,7 @@ use crate::geometry::mesh::{TriMesh, vertex_normals};
 use crate::geometry::words::{Words, words};
 use crate::io::dressed::{Dressed, Frame, PieceArrays, TrimArrays};
 use crate::io::materials::{ClothMaterial, Colours, ROUGHNESS};
+use crate::io::wedges::{Normals, Wedges};
 use meshes::{MeshArrays, MovedMesh};
 use names::Names;
 use prim::{Prim, quoted};
@@ -189,27 +190,31 @@ impl<'a> Builder<'a> {
     fn garment(&mut self, dressed: &Dressed<'_>, frames: &[Frame]) {
         let Dressed { garment, state, .. } = *dressed;
         let triangles = dressed.laid();
-        let on_body: Vec<[u32; 3]> = triangles.iter().map(|&t| garment.triangles[t]).collect();
-        let normals = vertex_normals(&state.positions, &on_body);
-        let moved: Vec<Vec<DVec3>> =
-            frames.iter().map(|frame| vertex_normals(&frame.cloth, &on_body)).collect();
+        let wedges = Wedges::new(garment);
+        let normals_at = |positions: &[DVec3]| Normals::new(garment, &wedges, positions, &triangles);
+        let normals = normals_at(&state.positions);
+        let moved: Vec<Normals> = frames.iter().map(|frame| normals_at(&frame.cloth)).collect();
         for (id, name) in &garment.pieces {
             let own = triangles.iter().copied().filter(|&t| garment.triangle_pieces[t] == *id);
-            let piece = PieceArrays::new(dressed, *id, own, &normals, self.colours.textures.as_deref());
+            let piece =
+                PieceArrays::new(dressed, *id, own, (&wedges, &normals), self.colours.textures.as_deref());
             if piece.triangles.is_empty() {
                 continue;
             }
-            let (corners, _) = dressed.corners(*id);
-            let of = |all: &[DVec3]| corners.iter().map(|c| all[c.vertex as usize]).collect();
-            let moved: Vec<MovedMesh> =
-                frames.iter().zip(&moved).map(|(frame, normals)| (of(&frame.cloth), of(normals))).collect();
+            let own = wedges.of_piece(garment, *id);
+            let vertex = |wedge: usize| garment.corners[wedges.corners[wedge] as usize].vertex as usize;
+            let of = |(frame, normals): (&Frame, &Normals)| {
+                let positions = own.iter().map(|wedge| frame.cloth[vertex(wedge)]).collect();
+                (positions, own.iter().map(|wedge| normals.wedges[wedge]).collect())
+            };
+            let moved: Vec<MovedMesh> = frames.iter().zip(&moved).map(of).collect();
             self.piece(name, &piece, &self.colours.of(*id), &moved);
         }
         let state_of =
             |frame: &Frame| ClothState { positions: frame.cloth.clone(), mapped: state.mapped.clone() };
         let states: Vec<ClothState> = frames.iter().map(state_of).collect();
         for (part, material) in dressed.trims(self.colours) {
-            let trim = |(state, normals): (&ClothState, &Vec<DVec3>)| {
+            let trim = |(state, normals): (&ClothState, &Normals)| {
                 let moved = TrimArrays::new(&Dressed { state, ..*dressed }, part, normals);
                 (moved.positions, moved.normals)
             };

@@ -117,6 +117,8 @@ pub struct FrameContext {
     pub recent: Arc<Vec<RecentFile>>,
     /// Display options of body and cloth.
     pub sight: Sight,
+    /// Whether there is an environment map to go back to.
+    pub keeps_environment: bool,
     /// Whether the bar that rotates the environment map is shown.
     pub rotating: bool,
     /// Whether the bar of the aperture is shown.
@@ -187,9 +189,19 @@ impl FrameContext {
             }
             Need::Pins => (self.pins > 0, "There are no pins"),
             Need::Comparison => (self.difference.is_some(), "Nothing is shown beside: compare first"),
+            Need::KeptEnvironment => {
+                (self.keeps_environment, "No environment map is chosen: choose one first")
+            }
+            Need::EnvironmentMap if self.keeps_environment => {
+                (self.sight.environment.is_some(), "The environment map is put aside: light by it first")
+            }
             Need::EnvironmentMap => {
                 (self.sight.environment.is_some(), "No environment map is chosen: choose one first")
             }
+            Need::Perspective => (
+                !self.parallel,
+                "In parallel projection everything is sharp: leave it first (View › Parallel projection)",
+            ),
             Need::DepthOfField => (self.sight.lens.is_some(), "Depth of field is off: switch it on first"),
             Need::Selection => (self.selected.is_some() || picked.deletable, "Nothing is selected"),
             Need::PickedPiece => (picked.pieces > 0, "No piece is selected"),
@@ -260,7 +272,7 @@ impl FrameContext {
             Action::ToggleSheer => self.sight.sheer,
             Action::ToggleXray => self.sight.xray,
             Action::Light(light) => self.sight.light == light && self.sight.environment.is_none(),
-            Action::EnvironmentMap => self.sight.environment.is_some(),
+            Action::ToggleEnvironment => self.sight.environment.is_some(),
             Action::RotateEnvironment => self.rotating,
             Action::ToggleDepthOfField => self.sight.lens.is_some(),
             Action::SetAperture => self.sets_aperture,

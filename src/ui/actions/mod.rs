@@ -182,6 +182,8 @@ pub enum Action {
     Light(Light),
     /// Light the scene by an image of the surroundings.
     EnvironmentMap,
+    /// Light the scene by that image, or put it aside.
+    ToggleEnvironment,
     /// Show or hide the bar that rotates the environment map.
     RotateEnvironment,
     /// Blur what is out of focus, or nothing.

@@ -86,8 +86,12 @@ pub enum Need {
     Pins,
     /// Another garment is shown beside.
     Comparison,
+    /// An environment map is chosen; it may be put aside.
+    KeptEnvironment,
     /// An environment map lights the scene.
     EnvironmentMap,
+    /// The projection is perspective.
+    Perspective,
     /// What is out of focus is blurred.
     DepthOfField,
     /// Something that can be deleted is selected.

@@ -1,6 +1,6 @@
 //! Display options of body and cloth.
 
-use crate::render::{Harmonics, Lens, Light, Look};
+use crate::render::{ImageLight, Lens, Light, Look};
 use crate::ui::scenery::body_look::BodyLook;
 
 /// Display options of body and cloth.
@@ -17,7 +17,7 @@ pub struct Sight {
     /// Light of the surroundings.
     pub light: Light,
     /// Light from all sides out of an environment map, turned as chosen, in place of that of `light`.
-    pub environment: Option<Harmonics>,
+    pub environment: Option<ImageLight>,
     /// The lens that blurs what is out of focus; without a focus, each picture focuses it by what its middle shows.
     pub lens: Option<Lens>,
     /// How the body is shown.

@@ -7,12 +7,13 @@ use egui::{Frame, Margin, Panel};
 use crate::pattern::Pattern;
 use crate::session::Document;
 use crate::sim::Snapshot;
-use crate::ui::actions::Tool;
 use crate::ui::actions::asks::Asks;
 use crate::ui::actions::context::FrameContext;
 use crate::ui::actions::layout::{Layout, Panes};
 use crate::ui::actions::picked::Picked;
+use crate::ui::actions::{PATTERN_TOOLS, Tool};
 use crate::ui::app::App;
+use crate::ui::app::focus_round::Bar;
 use crate::ui::body_pane;
 use crate::ui::language::{said, say, tr};
 use crate::ui::look::theme::Palette;
@@ -45,22 +46,24 @@ impl App {
         let (thin, thick) = (bar(ui, 3), bar(ui, 6));
         let surface = self.shown().surface().cloned();
         let lost = self.shown().problems().to_vec();
-        Panel::top("menu")
-            .frame(thin)
-            .show_separator_line(false)
-            .show(ui, |ui| menu::menu_bar_ui(ui, now, asks));
-        Panel::top("tools").frame(thick).show(ui, |ui| {
+        let menu = Panel::top("menu").frame(thin).show_separator_line(false);
+        let menu = menu.show(ui, |ui| menu::menu_bar_ui(ui, now, asks));
+        self.shell.round.show(Bar::Menu, menu.response.rect);
+        let tools = Panel::top("tools").frame(thick).show(ui, |ui| {
             self.shell.first_tool = toolbar::toolbar_ui(ui, now, palette, asks);
         });
+        self.shell.round.show(Bar::Toolbar, tools.response.rect);
         Panel::bottom("status").frame(thin).exact_size(status::HEIGHT).show(ui, |ui| {
-            status::status_ui(ui, now, &self.hint(document, now, palette), palette);
+            let hint = self.hint(ui.ctx(), document, now, palette);
+            status::status_ui(ui, now, &hint, palette);
         });
         // Here, since the table may be hidden.
         self.pattern_pane.nests.update(&document.pattern);
         self.shell.first_of_panel = None;
         self.shell.pose.animation.play(ui.ctx(), document, now, asks);
         if self.show_panel {
-            Panel::right("side").default_size(256.0).size_range(220.0..=420.0).frame(thick).show(ui, |ui| {
+            let side = Panel::right("side").default_size(256.0).size_range(220.0..=420.0).frame(thick);
+            let side = side.show(ui, |ui| {
                 let told = PanelContext {
                     document,
                     surface: surface.as_ref(),
@@ -80,6 +83,7 @@ impl App {
                 let first = side::side_panel_ui(ui, &told, marks, pattern, of_body, asks);
                 self.shell.first_of_panel = first;
             });
+            self.shell.round.show(Bar::Side, side.response.rect);
         }
         self.drawer_panel(ui, now, palette, asks);
         self.panes(ui, document, snapshot, now, palette, asks);
@@ -110,7 +114,13 @@ impl App {
         }
     }
 
-    fn hint(&self, document: &Document, now: &FrameContext, palette: &Palette) -> String {
+    fn hint(
+        &self,
+        ctx: &egui::Context,
+        document: &Document,
+        now: &FrameContext,
+        palette: &Palette,
+    ) -> String {
         let mouse = now.mouse;
         let next = |painted: usize| painted + 1;
         if self.demo.is_some() {
@@ -121,17 +131,20 @@ impl App {
             words
         } else if let Some(words) = self.scene_pane.hint_of_line(mouse) {
             words
+        } else if let Some(words) = self.pattern_pane.hint_by_keys(ctx).filter(|_| !self.scene_pane.hovered) {
+            words.to_owned()
         } else if self.pattern_pane.hovered || self.pattern_pane.is_busy() {
             self.pattern_pane.hint(&self.laid(document, now, palette))
         } else if self.scene_pane.hovered {
             let words =
                 body_pane::hint(self.tool, mouse, self.laser, now.dressed, next(document.marks.body.len()));
-            match now.highlight.and_then(|item| edge_words(&document.pattern, item, now.unit)) {
-                Some(edge) => format!("{edge} · {words}"),
-                None => words,
-            }
+            let edge = now.highlight.and_then(|item| edge_words(&document.pattern, item, now.unit));
+            // A tool of the table does nothing to the cloth.
+            let is_of_table = PATTERN_TOOLS.iter().any(|group| group.contains(&self.tool));
+            let next = (now.dressed && is_of_table).then(|| status::next_step(ctx, now));
+            edge.into_iter().chain(next).chain([words]).collect::<Vec<_>>().join(" · ")
         } else {
-            tr("Paint a mark on a piece and one on the body where it should lie, then press Wrap.").to_owned()
+            status::next_step(ctx, now)
         }
     }
 
@@ -204,15 +217,14 @@ impl App {
             keymap: Arc::clone(&self.preferences.keymap),
             recent: Arc::clone(self.shell.recent.files()),
             sight: self.shell.sight,
+            keeps_environment: self.preferences.lighting.environment.is_some(),
             rotating: self.shell.environment.is_rotated,
             sets_aperture: self.shell.sets_aperture,
             drawer: self.shell.drawer,
             map: self.shell.maps.kind(),
             difference: self.shell.maps.beside().map(|beside| beside.difference),
             adapter: self.scene_pane.graphics.as_ref().map(|g| g.adapter_name().to_owned()),
-            picturing: self.shell.turn.is_some()
-                || self.shell.reporting.is_some()
-                || self.shell.tech_pack.is_some(),
+            picturing: self.shell.is_picturing(),
         }
     }
 }

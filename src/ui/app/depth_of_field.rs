@@ -1,6 +1,6 @@
 //! Depth of field of the body pane: switched on and off, its aperture chosen in a bar over the pane, and kept in the preferences.
 
-use crate::render::Lens;
+use crate::render::{Lens, Projection};
 use crate::ui::actions::Action;
 use crate::ui::actions::asks::{Ask, Asks};
 use crate::ui::app::App;
@@ -32,9 +32,9 @@ impl App {
         self.shell.environment.is_rotated &= !is_shown;
     }
 
-    /// Draws the bar of the aperture, at the lower edge of the body pane, if it is open.
+    /// Draws the bar of the aperture, at the lower edge of the body pane, if it is open and the projection has a focus.
     pub(in crate::ui) fn aperture_ui(&mut self, ctx: &egui::Context, asks: &mut Asks) {
-        if !self.shell.sets_aperture {
+        if !self.shell.sets_aperture || self.scene_pane.camera.projection == Projection::Orthographic {
             return;
         }
         let mut f_number = self.preferences.depth_of_field.f_number.limited();

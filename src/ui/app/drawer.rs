@@ -7,6 +7,7 @@ use crate::ui::actions::asks::{Ask, Asks};
 use crate::ui::actions::context::FrameContext;
 use crate::ui::actions::drawer::Drawer;
 use crate::ui::app::App;
+use crate::ui::app::focus_round::Bar;
 use crate::ui::language::{said, say, tr};
 use crate::ui::look::theme::Palette;
 use crate::ui::maps;
@@ -22,7 +23,7 @@ impl App {
     ) {
         let Some(drawer) = self.shell.drawer else { return };
         let frame = Frame::new().fill(ui.visuals().panel_fill).inner_margin(Margin::symmetric(10, 6));
-        Panel::bottom("drawer")
+        let shown = Panel::bottom("drawer")
             .frame(frame)
             .resizable(true)
             .default_size(150.0)
@@ -64,6 +65,7 @@ impl App {
                     },
                 );
             });
+        self.shell.round.show(Bar::Drawer, shown.response.rect);
     }
 
     /// The undo history, oldest step first; undone steps are fainter. A click goes to a step.

@@ -4,8 +4,10 @@
 use std::path::{Path, PathBuf};
 use std::sync::mpsc::{Receiver, TryRecvError, channel};
 
+use egui::SliderClamping;
+
 use crate::language::{shown, shown_in};
-use crate::render::{Harmonics, Light};
+use crate::render::{ImageLight, Light};
 use crate::ui::actions::Action;
 use crate::ui::actions::asks::{Ask, Asks};
 use crate::ui::app::App;
@@ -21,7 +23,7 @@ const NAME_WIDTH: f32 = 160.0;
 #[derive(Debug, Default)]
 pub struct EnvironmentMap {
     /// The last image that was read, and its light, not rotated.
-    read: Option<(PathBuf, Harmonics)>,
+    read: Option<(PathBuf, ImageLight)>,
     /// The image that is being read.
     coming: Option<Reading>,
     /// Whether the bar that rotates it is open.
@@ -32,14 +34,15 @@ pub struct EnvironmentMap {
 #[derive(Debug)]
 struct Reading {
     path: PathBuf,
-    coming: Receiver<Result<Harmonics, String>>,
+    coming: Receiver<Result<ImageLight, String>>,
 }
 
 impl EnvironmentMap {
     /// The light of the environment map of `lighting`, rotated; None where there is none or it is not read.
-    fn light(&self, lighting: &Lighting) -> Option<Harmonics> {
+    fn light(&self, lighting: &Lighting) -> Option<ImageLight> {
         let (path, light) = self.read.as_ref()?;
-        (lighting.environment.as_ref() == Some(path)).then(|| light.turned(lighting.rotation.radians()))
+        (lighting.environment_used() == Some(path.as_path()))
+            .then(|| light.turned(lighting.rotation.radians()))
     }
 }
 
@@ -47,8 +50,8 @@ impl App {
     /// The environment map that lights the body pane, and its rotation in degrees; None while one of the lights does.
     pub fn environment(&self) -> Option<(&Path, u16)> {
         let lighting = &self.preferences.lighting;
-        let path = lighting.environment.as_deref().filter(|_| self.shell.sight.environment.is_some())?;
-        Some((path, lighting.rotation.0))
+        let path = lighting.environment_used().filter(|_| self.shell.sight.environment.is_some())?;
+        Some((path, lighting.rotation.degrees()))
     }
 
     /// Lights the body pane by the preferences.
@@ -60,13 +63,25 @@ impl App {
         self.shell.environment.is_rotated &= environment.is_some();
     }
 
-    /// Lights the body pane by `light`, without an environment map.
+    /// Lights the body pane by `light` alone. The environment map is put aside, to go back to.
     pub(in crate::ui) fn choose_light(&mut self, ctx: &egui::Context, light: Light) {
         self.shell.environment.coming = None;
         self.prefer(ctx, |p| {
             p.lighting.light = light;
-            p.lighting.environment = None;
+            p.lighting.is_put_aside = p.lighting.environment.is_some();
         });
+    }
+
+    /// Puts the environment map aside, or goes back to it.
+    pub(in crate::ui) fn toggle_environment(&mut self, ctx: &egui::Context) {
+        let is_lit = self.shell.environment.coming.is_some() || self.shell.sight.environment.is_some();
+        if is_lit {
+            return self.choose_light(ctx, self.preferences.lighting.light);
+        }
+        self.prefer(ctx, |p| p.lighting.is_put_aside = false);
+        if self.shell.sight.environment.is_none() {
+            self.read_kept_environment(ctx);
+        }
     }
 
     /// Begins to read the image at `path`, which becomes the environment map. The error means that no thread could be started.
@@ -80,9 +95,9 @@ impl App {
         self.read_environment(ctx, path)
     }
 
-    /// Begins to read the environment map of the preferences, if they have one.
+    /// Begins to read the environment map of the preferences, if they have one that is not put aside.
     pub(in crate::ui) fn read_kept_environment(&mut self, ctx: &egui::Context) {
-        let Some(path) = self.preferences.lighting.environment.clone() else { return };
+        let Some(path) = self.preferences.lighting.environment_used().map(Path::to_owned) else { return };
         if let Err(words) = self.read_environment(ctx, path) {
             self.messages.error(words);
         }
@@ -117,10 +132,12 @@ impl App {
             Ok(light) => {
                 let path = reading.path;
                 self.shell.environment.read = Some((path.clone(), light));
-                if self.preferences.lighting.environment.as_ref() == Some(&path) {
+                if self.preferences.lighting.environment_used() == Some(path.as_path()) {
                     self.light_up();
                 } else {
-                    self.prefer(ctx, |p| p.lighting.environment = Some(path));
+                    self.prefer(ctx, |p| {
+                        (p.lighting.environment, p.lighting.is_put_aside) = (Some(path), false);
+                    });
                 }
             }
             Err(why) => self.messages.error(say!("The environment map was not taken: {why}", why)),
@@ -158,5 +175,12 @@ fn slider_ui(ui: &mut egui::Ui, name: &str, rotation: &mut Rotation) -> egui::Re
         ui.add(egui::Label::new(egui::RichText::new(name).weak()).truncate());
     });
     let label = ui.label(tr("Rotation"));
-    ui.add(slider(&mut rotation.0, 0..=Rotation::MOST).suffix("°")).labelled_by(label.id)
+    // The field takes any angle, which is wrapped once it is typed.
+    let mut degrees = i32::from(rotation.degrees());
+    let slider = slider(&mut degrees, 0..=Rotation::MOST.into()).suffix("°");
+    let slider = ui.add(slider.clamping(SliderClamping::Never).update_while_editing(false));
+    if slider.changed() {
+        *rotation = Rotation::wrapped(degrees);
+    }
+    slider.labelled_by(label.id)
 }

@@ -149,7 +149,7 @@ impl App {
             self.wrote(path);
         }
         if !written.left_out.is_empty() {
-            self.messages.tell(written.left_out.join("; "));
+            self.messages.tell(said(&Words::joined(written.left_out.iter().cloned(), "; ")));
         }
         Ok(())
     }

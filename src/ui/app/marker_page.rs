@@ -316,10 +316,11 @@ fn garments(pattern: &Pattern, last: &Order) -> Vec<(String, usize)> {
 }
 
 impl App {
-    /// Opens the Marker window.
+    /// Opens the Marker window on the pattern that is shown, which may be a demo's.
     pub(in crate::ui) fn open_marker(&mut self) {
-        let name = self.path.as_deref().map_or_else(|| "untitled".to_owned(), files::stem);
-        let pattern = Arc::clone(&self.session.document().pattern);
+        let own = || self.path.as_deref().map_or_else(|| "untitled".to_owned(), files::stem);
+        let name = self.demo.as_ref().map_or_else(own, |(player, ..)| player.demo.file_stem().to_owned());
+        let pattern = Arc::clone(&self.shown().document().pattern);
         self.shell.marker = Some(MarkerPage::new(name, pattern, &self.shell.marker_order));
     }
 

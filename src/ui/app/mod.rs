@@ -10,6 +10,7 @@ pub(in crate::ui) mod drawer;
 pub(in crate::ui) mod dressing;
 pub(in crate::ui) mod environment;
 pub(in crate::ui) mod exchange;
+pub(in crate::ui) mod focus_round;
 pub(in crate::ui) mod keyboard;
 pub(in crate::ui) mod marker_page;
 mod marker_preview;
@@ -200,11 +201,11 @@ impl App {
             self.messages.error(words);
         }
         self.shell.recent = Recent::read(path.with_file_name("recent.json"));
-        for words in self.languages.read(&path.with_file_name(choice::FOLDER)) {
-            self.messages.error(words);
-        }
+        let no_tables = self.languages.read(&path.with_file_name(choice::FOLDER));
         self.preferences_path = Some(path);
         self.live_by_preferences(ctx);
+        // The language is known only now.
+        no_tables.iter().for_each(|words| self.messages.error(said(words)));
         self.read_kept_environment(ctx);
     }
 
@@ -325,13 +326,13 @@ impl App {
         self.ghosts = self.ghosts.take().filter(|g| g.fit(&document, self.shown().surface()));
         self.carry_selection(&document);
         self.take_comparison();
-        self.take_tech_pack();
         self.take_environment(&ctx);
         self.shell.maps.look(&snapshot, &document.fabrics, self.shell.sight.body_look);
         let now = self.situation(&ctx, &document, &snapshot);
         self.scheme = Scheme::of(self.preferences.theme, ctx.theme());
         let palette = Palette::of(self.scheme);
         let mut asks = Asks::new();
+        self.escape_from_bar(&ctx, &now);
         self.keys(&ctx, &now, &mut asks);
         if self.shell.start.is_some() {
             self.start_page(ui, &now, &palette, &mut asks);
@@ -352,6 +353,7 @@ impl App {
             self.carry_out(&ctx, ask);
         }
         self.dialogs(&ctx);
+        self.tend_focus(&ctx);
         self.dropped_files(&ctx);
         self.guard_closing(&ctx);
         self.set_title(&ctx);

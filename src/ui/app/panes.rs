@@ -92,6 +92,7 @@ impl App {
         if table {
             let pane = &mut self.pattern_pane;
             (pane.hovered, pane.area, pane.id, pane.under) = (false, None, None, None);
+            pane.bars = [None; 2];
         } else {
             let pane = &mut self.scene_pane;
             pane.give_up_line();

@@ -9,7 +9,6 @@ use crate::session::{Command, Document};
 use crate::sim::ClothPlace;
 use crate::ui::actions::Action;
 use crate::ui::app::App;
-use crate::ui::app::shell::Shell;
 use crate::ui::pattern_pane::edits;
 use crate::ui::selection::{Item, LineRef, Selection};
 
@@ -100,23 +99,6 @@ impl App {
         let edits = edits::edits(action, &pattern, &self.picks.selection);
         if !edits.is_empty() {
             self.apply_and_select(Command::EditPattern { edits, anew: false });
-        }
-    }
-
-    /// Moves the keyboard focus from the pattern pane to body pane, side panel, toolbar and round again, or `back`; from anywhere
-    /// else to the first of them.
-    pub(in crate::ui) fn next_pane(&mut self, ctx: &egui::Context, back: bool) {
-        let Shell { first_of_panel, first_tool, .. } = self.shell;
-        let mut panes = [self.pattern_pane.id, self.scene_pane.id, first_of_panel, first_tool];
-        if back {
-            panes.reverse();
-        }
-        let focused = ctx.memory(|m| m.focused());
-        let at = focused.and_then(|id| panes.iter().position(|&pane| pane == Some(id)));
-        let from = at.map_or(0, |at| at + 1);
-        let next = (0..panes.len()).find_map(|i| panes[(from + i) % panes.len()]);
-        if let Some(id) = next {
-            ctx.memory_mut(|m| m.request_focus(id));
         }
     }
 }

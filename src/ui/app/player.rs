@@ -8,7 +8,8 @@ use glam::{DVec2, DVec3};
 use crate::cloth::FlatPiece;
 use crate::drag::DragMode;
 use crate::geometry::ids::PieceId;
-use crate::pattern::edit::PatternEdit;
+use crate::pattern::EdgeRef;
+use crate::pattern::edit::{PatternEdit, TrimLine};
 use crate::render::{Camera, mark_colour};
 use crate::session::demos::Demo;
 use crate::session::recording::Recording;
@@ -225,6 +226,10 @@ impl Player {
                 stroke(self.session(), command, share, stage).last().copied()
             }
             Command::SetPiecePose { piece, .. } => self.middle(*piece, stage),
+            Command::AddGraphic { graphic } => {
+                let piece = self.session().document().pattern.pieces.get(&graphic.piece)?;
+                Some(on_table(stage, piece.pose.plane_from_piece(graphic.at)))
+            }
             Command::SetFabric { piece, .. } | Command::SetDye { piece, .. } => {
                 // What all pieces get is shown on the last, which is mostly the largest.
                 let last = || self.session().document().pattern.pieces.keys().last().copied();
@@ -298,10 +303,10 @@ impl Player {
                     if ui.button(if self.ended { tr("Back to your work") } else { tr("Stop") }).clicked() {
                         asks.push(Ask::Act(Action::StopDemo));
                     }
-                    if self.ended && self.demo.leads_to().is_some() {
-                        let row = Action::Export.row();
+                    if let Some(action) = next_action(self.demo).filter(|_| self.ended) {
+                        let row = action.row();
                         if ui.button(tr(row.text)).on_hover_text(tr(row.tip)).clicked() {
-                            asks.push(Ask::Act(Action::Export));
+                            asks.push(Ask::Act(action));
                         }
                     }
                     if self.ended && ui.button(tr("Again")).clicked() {
@@ -321,6 +326,15 @@ fn quoted(demo: Demo) -> String {
     format!("{:?}", tr(demo.name()))
 }
 
+/// What a person does next with what `demo` made, as [`Demo::leads_to`] tells.
+fn next_action(demo: Demo) -> Option<Action> {
+    match demo {
+        Demo::Cutting => Some(Action::Marker),
+        Demo::Export => Some(Action::Export),
+        _ => None,
+    }
+}
+
 /// Duration of the animation of `command` at its place, seconds.
 fn length(command: &Command) -> f64 {
     match command {
@@ -336,8 +350,13 @@ fn length(command: &Command) -> f64 {
         | Command::ChangeSize { .. }
         | Command::Repose { .. }
         | Command::Dress { .. }
+        | Command::Sew
         | Command::SetFabric { .. }
         | Command::SetDye { .. }
+        | Command::AddImage { .. }
+        | Command::AddGraphic { .. }
+        | Command::KeepColourway { .. }
+        | Command::WearColourway { .. }
         | Command::SetDraping { .. } => 0.8,
         _ => 0.05,
     }
@@ -367,8 +386,13 @@ fn words(command: &Command, session: &Session) -> String {
         Command::ChangeSize { .. } => tr("Another size").to_owned(),
         Command::Repose { .. } => tr("Another pose").to_owned(),
         Command::Dress { .. } => tr("Dress").to_owned(),
+        Command::Sew => tr("Sew from placement").to_owned(),
         Command::SetFabric { .. } => tr("A fabric for all pieces").to_owned(),
         Command::SetDye { .. } => tr("Colour and print").to_owned(),
+        Command::AddImage { .. } => tr("Take an image").to_owned(),
+        Command::AddGraphic { .. } => tr("Place a graphic").to_owned(),
+        Command::KeepColourway { name } => say!("Keep the colourway {name}", name),
+        Command::WearColourway { name } => say!("Colourway {name}", name),
         Command::SetDraping { on: true } => tr("Drape").to_owned(),
         _ => String::new(),
     }
@@ -382,6 +406,13 @@ fn edit_words(edit: &PatternEdit) -> &'static str {
         PatternEdit::Scale { .. } => tr("Make it wider"),
         PatternEdit::SetSizes { .. } => tr("Choose sizes"),
         PatternEdit::SetRules { .. } => tr("Rules for its points"),
+        PatternEdit::AddButtons { .. } => tr("Sew on buttons"),
+        PatternEdit::SetTopstitch { .. } => tr("Topstitching"),
+        PatternEdit::SetHem { .. } => tr("Hem"),
+        PatternEdit::SetAllowance { .. } => tr("Seam allowance"),
+        PatternEdit::SetCorner { .. } => tr("Corner of the allowance"),
+        PatternEdit::AddNotch { .. } => tr("Notch"),
+        PatternEdit::SetGrainline { .. } => tr("Turn the grainline"),
         _ => "",
     }
 }
@@ -404,17 +435,38 @@ fn stroke(session: &Session, command: &Command, share: f64, stage: &Stage<'_>) -
 
 /// Where on the table an edit is made.
 fn edited(edit: &PatternEdit, session: &Session, stage: &Stage<'_>) -> Option<Pos2> {
+    let pattern = &session.document().pattern;
+    let along = |edge: EdgeRef, at: f64| {
+        let piece = pattern.pieces.get(&edge.piece)?;
+        let is_there = edge.edge < piece.edge_count();
+        let points = is_there.then(|| piece.edge_points(edge.edge, &[at]))?;
+        Some((edge.piece, points.first().copied()))
+    };
     let (id, at) = match edit {
         PatternEdit::MovePoints { points } => points.first().map(|(point, to)| (point.piece, Some(*to)))?,
         PatternEdit::MoveLinePoints { points } => {
             points.first().map(|(point, to)| (point.piece, Some(*to)))?
         }
         PatternEdit::AddDart { edge, .. } => (edge.piece, None),
-        PatternEdit::Duplicate { pieces, .. } | PatternEdit::Scale { pieces, .. } => (*pieces.first()?, None),
+        PatternEdit::Duplicate { pieces, .. }
+        | PatternEdit::Scale { pieces, .. }
+        | PatternEdit::SetAllowance { pieces, .. } => (*pieces.first()?, None),
         PatternEdit::SetRules { rules } => (rules.first()?.0.piece, None),
+        PatternEdit::SetGrainline { piece, .. } => (*piece, None),
+        PatternEdit::AddButtons { buttons } => {
+            buttons.first().map(|b| (b.button.piece, Some(b.button.at)))?
+        }
+        PatternEdit::AddNotch { edge, at } => along(*edge, *at)?,
+        PatternEdit::SetCorner { point, .. } => {
+            along(EdgeRef { piece: point.piece, edge: point.point }, 0.0)?
+        }
+        PatternEdit::SetTopstitch { lines, .. } | PatternEdit::SetHem { lines, .. } => match lines.first()? {
+            TrimLine::Edge(edge) => along(*edge, 0.5)?,
+            TrimLine::Line { piece, .. } => (*piece, None),
+        },
         _ => return None,
     };
-    let piece = session.document().pattern.pieces.get(&id)?;
+    let piece = pattern.pieces.get(&id)?;
     let line = piece.flattened(0.01);
     let middle = || line.iter().sum::<DVec2>() / line.len() as f64;
     Some(on_table(stage, piece.pose.plane_from_piece(at.unwrap_or_else(middle))))
@@ -445,4 +497,28 @@ fn hand_ui(painter: &Painter, at: Pos2, is_down: bool, deed: &str, palette: &Pal
     let room = Rect::from_min_size(at + Vec2::new(RING + 8.0, -text.size().y / 2.0), text.size());
     painter.rect_filled(room.expand2(Vec2::new(7.0, 4.0)), 5.0, palette.accent);
     painter.galley(room.min, text, palette.on_accent);
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_a_demo_leads_to_is_a_button_with_the_name_that_is_told() {
+        for demo in Demo::ALL {
+            let Some(action) = next_action(demo) else {
+                assert_eq!(demo.leads_to(), None, "{demo:?}");
+                continue;
+            };
+            let row = action.row();
+            let name = format!("{} › {}", row.menu, row.text);
+            assert!(demo.leads_to().is_some_and(|words| words.starts_with(&name)), "{demo:?}: {name}");
+            assert!(row.in_demos, "{demo:?}: {name} could not be chosen");
+        }
+    }
+
+    #[test]
+    fn there_are_ten_walks() {
+        assert_eq!(Demo::ALL.iter().filter(|demo| demo.is_walk()).count(), 10);
+    }
 }

@@ -12,6 +12,7 @@ use crate::ui::actions::sight::Sight;
 use crate::ui::app::App;
 use crate::ui::app::all_sizes::AllSizes;
 use crate::ui::app::environment::EnvironmentMap;
+use crate::ui::app::focus_round::FocusRound;
 use crate::ui::app::marker_page::MarkerPage;
 use crate::ui::app::picture_page::PicturePage;
 use crate::ui::app::reporting::Reporting;
@@ -80,6 +81,8 @@ pub struct Shell {
     pub environment: EnvironmentMap,
     /// Whether the bar of the aperture is shown.
     pub sets_aperture: bool,
+    /// Where the keyboard was and can go.
+    pub round: FocusRound,
     /// First widgets of the toolbar and of the side panel, which get the keyboard focus.
     pub first_tool: Option<egui::Id>,
     pub first_of_panel: Option<egui::Id>,
@@ -98,6 +101,11 @@ pub struct Shell {
 }
 
 impl Shell {
+    /// Whether pictures, a fit report or a tech pack are being made.
+    pub fn is_picturing(&self) -> bool {
+        self.turn.is_some() || self.reporting.is_some() || self.tech_pack.is_some()
+    }
+
     /// Whether keys go to a dialog or page over the panes.
     pub fn is_asking(&self) -> bool {
         self.palette.is_some()
@@ -140,6 +148,7 @@ impl App {
             Action::ToggleSheer => self.shell.sight.sheer = !self.shell.sight.sheer,
             Action::ToggleXray => self.shell.sight.xray = !self.shell.sight.xray,
             Action::Light(light) => self.choose_light(ctx, light),
+            Action::ToggleEnvironment => self.toggle_environment(ctx),
             Action::RotateEnvironment => {
                 self.shell.environment.is_rotated = !self.shell.environment.is_rotated;
                 self.shell.sets_aperture &= !self.shell.environment.is_rotated;
@@ -199,6 +208,7 @@ impl App {
         self.aperture_ui(ctx, asks);
         self.go_on_turning(ctx, palette, status::HEIGHT);
         self.go_on_reporting(ctx, palette, status::HEIGHT);
+        self.go_on_packing(ctx, palette, status::HEIGHT);
         drop_overlay::ui(ctx, palette, [self.pattern_pane.area, self.scene_pane.area]);
     }
 

@@ -109,7 +109,7 @@ pub fn progress_ui(ctx: &egui::Context, palette: &Palette, above: f32, done: usi
 }
 
 /// Draws `words` and a bar, of which `share` (0..=1) is full, at the bottom of the window; true when the user stops it.
-fn bar_ui(ctx: &egui::Context, palette: &Palette, above: f32, words: &str, share: f32) -> bool {
+pub fn bar_ui(ctx: &egui::Context, palette: &Palette, above: f32, words: &str, share: f32) -> bool {
     let area = Area::new(Id::unique("pictures")).order(Order::Foreground);
     let shown = area.anchor(Align2::CENTER_BOTTOM, [0.0, -above - 14.0]).show(ctx, |ui| {
         let row = |ui: &mut egui::Ui| {

@@ -23,7 +23,7 @@ use crate::io::scale::{DrawingUnit, ScaleQuestion};
 use crate::io::{FILE_BYTES, bvh, gltf};
 use crate::marker::{FinishedMarker, MarkerFormat};
 use crate::pattern::Pattern;
-use crate::render::Harmonics;
+use crate::render::ImageLight;
 use crate::session::project_file::ProjectFileError;
 use crate::session::samples::Sample;
 use crate::session::{
@@ -401,7 +401,7 @@ pub fn take_image(path: &Path) -> Result<Command, String> {
 }
 
 /// Light from all sides out of the image at `path`.
-pub fn read_environment(path: &Path) -> Result<Harmonics, String> {
+pub fn read_environment(path: &Path) -> Result<ImageLight, String> {
     light_of(&read(path)?).map_err(|why| in_words(path, Deed::Read, &why))
 }
 
@@ -418,7 +418,7 @@ pub fn exported(
     };
     let worn = Worn { garment, cloth, pattern, document };
     let body = snapshot.body.as_ref().map(|b| &b.mesh);
-    worn.files(WornOptions::default(), body, path).map_err(|e| in_words(path, Deed::Write, &Words::plain(e)))
+    worn.files(WornOptions::default(), body, path).map_err(|why| in_words(path, Deed::Write, &why))
 }
 
 /// Writes files, all or none of them.

@@ -4,6 +4,7 @@ use std::path::Path;
 
 use serde::{Deserialize, Serialize};
 
+use crate::geometry::words::{Words, words};
 use crate::language::Table;
 
 /// Folder of the tables beside the preferences.
@@ -39,11 +40,11 @@ impl Languages {
         self.system = locale;
     }
 
-    /// Reads the tables in `folder`, if it is there; returns messages about files that are none. They are kept for as long as the
-    /// program runs.
-    pub fn read(&mut self, folder: &Path) -> Vec<String> {
-        let mut words = Vec::new();
-        let Ok(files) = std::fs::read_dir(folder) else { return words };
+    /// Reads the tables in `folder`, if it is there; returns what is to be told about files that are none. The tables are kept for as
+    /// long as the program runs.
+    pub fn read(&mut self, folder: &Path) -> Vec<Words> {
+        let mut told = Vec::new();
+        let Ok(files) = std::fs::read_dir(folder) else { return told };
         let mut paths: Vec<_> = files.flatten().map(|file| file.path()).collect();
         paths.retain(|path| path.extension().is_some_and(|e| e == "json"));
         paths.sort();
@@ -51,10 +52,10 @@ impl Languages {
         for path in paths {
             match table(&path) {
                 Ok(table) => self.own.push(Box::leak(Box::new(table))),
-                Err(why) => words.push(format!("{}: {why}", path.display())),
+                Err(why) => told.push(Words::plain(path.display().to_string()).and(": ", why)),
             }
         }
-        words
+        told
     }
 
     /// Code and name of each language, English first.
@@ -97,12 +98,14 @@ fn short(code: &str) -> String {
     code.split(['_', '-', '.', '@']).next().unwrap_or_default().to_lowercase()
 }
 
-fn table(path: &Path) -> Result<Table, String> {
-    let size = std::fs::metadata(path).map_err(|e| e.to_string())?.len();
+fn table(path: &Path) -> Result<Table, Words> {
+    let unread = |e: std::io::Error| Words::plain(e.to_string());
+    let size = std::fs::metadata(path).map_err(unread)?.len();
     if size > MOST_BYTES {
-        return Err(format!("a table of texts has no {} MB", size >> 20));
+        let most = MOST_BYTES >> 20;
+        return Err(words!("the file has more than the {most} MiB that a table of texts may have", most));
     }
-    Table::read(&std::fs::read(path).map_err(|e| e.to_string())?)
+    Table::read(&std::fs::read(path).map_err(unread)?)
 }
 
 #[cfg(test)]
@@ -128,7 +131,7 @@ mod tests {
     fn the_system_is_followed_and_files_come_first() {
         let folder = tempfile::tempdir().expect("a folder");
         let mut languages = Languages::default();
-        assert_eq!(languages.read(&folder.path().join("none")), Vec::<String>::new());
+        assert_eq!(languages.read(&folder.path().join("none")), Vec::<Words>::new());
         assert!(languages.table(&Language::default()).is_none(), "English");
         for locale in ["de", "de_DE.UTF-8", "de-AT", "DE@euro"] {
             languages.take_system(locale.to_owned());
@@ -145,7 +148,10 @@ mod tests {
         write("broken.json", "{");
         write("notes.txt", "no table");
         let words = languages.read(folder.path());
-        assert!(words.len() == 1 && words[0].contains("broken.json: EOF"), "{words:?}");
+        assert!(
+            words.len() == 1 && words[0].contains("broken.json: it is no table of texts: EOF"),
+            "{words:?}"
+        );
         assert_eq!(languages.all(), [("en", "English"), ("fr", "Français"), ("de", "Mein Deutsch")]);
         assert_eq!(chosen(&languages, "fr_CA").as_deref(), Some("Français"));
         let named = |code| languages.named(code).map(|table| table.map(|table| table.code.as_str()));

@@ -6,6 +6,7 @@ use std::sync::Arc;
 use glam::DVec2;
 
 use crate::body::mannequin::{MannequinError, Measurements};
+use crate::body::pose::anatomy::JointAngle;
 use crate::body::{Unit, import};
 use crate::cloth;
 use crate::drape::SheetError;
@@ -17,14 +18,14 @@ use crate::io::pattern_file::PatternFileError;
 use crate::io::pdf::PdfError;
 use crate::io::sizes::{self, SizesError};
 use crate::io::usd::UsdError;
-use crate::io::{body_file, environment, pattern_formats, picture, rul};
+use crate::io::{body_file, environment, joints, pattern_formats, picture, rul};
 use crate::language::{Table, said, shown_in};
 use crate::marker::MarkerError;
 use crate::pattern::{EdgeRef, Pattern, Piece, ProblemKind, Seam};
 use crate::session::project_file::{self, ProjectFileError};
 use crate::session::recording::Recording;
 use crate::session::replay::Divergence;
-use crate::session::{Command, Project, Session, whole_file};
+use crate::session::{Command, Project, Session, marks_file, whole_file};
 use crate::sim::{Runner, Simulation};
 
 /// Asserts that German has every text of `words`, and that they are not names alone.
@@ -324,6 +325,35 @@ fn why_a_body_a_motion_or_a_table_cannot_be_read_is_told_in_german() {
     }
     is_told(&picture::read(b"GIF89a").expect_err("no picture"));
     is_told(&environment::read(b"GIF89a").expect_err("no environment"));
+}
+
+#[test]
+fn why_marks_joints_or_texts_cannot_be_read_is_told_in_german() {
+    let mut pattern = Pattern::default();
+    pattern.add_piece(square("front", 0.2));
+    for (piece, cloth) in [("back", "[[0, 0]]"), ("front", "[]")] {
+        let pair = format!("{{\"piece\": \"{piece}\", \"cloth\": {cloth}, \"body\": [[0, 0, 0]]}}");
+        for file in [format!("{{\"pairs\": [{pair}]}}"), "{\"pairs\": []}".to_owned(), "{".to_owned()] {
+            is_told(&marks_file::read(file.as_bytes(), &pattern).expect_err("no marks"));
+        }
+    }
+    for (name, degrees) in [("tail", 1.0), ("left_hip.bend", 1.0), ("left_knee.twist", 1.0)] {
+        is_told(&JointAngle::new(name, degrees).expect_err("no angle"));
+    }
+    assert_eq!(
+        german(&JointAngle::new("spine.abduction", 20.25).expect_err("too far")),
+        "spine: abduction 20,25° liegt außerhalb des Bereichs von -17,5° bis 17,5°"
+    );
+    is_told(&joints::read(b"{\"left_elbow\": 200}").expect_err("too far").words());
+    for table in [
+        "{",
+        r#"{"code": "../de", "name": "D", "texts": {}}"#,
+        r#"{"code": "de", "name": " ", "texts": {}}"#,
+        r#"{"code": "de", "name": "D", "decimal_sign": "x", "texts": {}}"#,
+        r#"{"code": "de", "name": "D", "texts": {"{a} of": "{b}"}}"#,
+    ] {
+        is_told(&Table::read(table.as_bytes()).expect_err("no table"));
+    }
 }
 
 #[test]

@@ -27,6 +27,8 @@ pub struct Drawing<'a> {
     pub palette: &'a Palette,
 }
 
+/// Where the number of a mark is, from the mark's first point, points.
+const NUMBER_AT: Vec2 = Vec2::new(-11.0, -11.0);
 /// Opacity of proposed marks.
 const GHOST: f32 = 0.6;
 
@@ -164,6 +166,16 @@ impl Drawing<'_> {
         }
     }
 
+    /// The places of the numbers of marks on the screen.
+    pub fn numbers(&self, pattern: &Pattern, marks: &Marks) -> Vec<Rect> {
+        let numbers = marks.cloth.iter().filter_map(|mark| {
+            let piece = pattern.pieces.get(&mark.piece).filter(|piece| !piece.hidden)?;
+            let at = self.place(piece.pose.plane_from_piece(*mark.points.first()?)) + NUMBER_AT;
+            Some(Rect::from_center_size(at, Vec2::splat(20.0)))
+        });
+        numbers.collect()
+    }
+
     /// Draws proposed marks with the numbers they would have.
     pub fn ghosts(&self, pattern: &Pattern, marks: &Marks) {
         for (mark, number) in marks.cloth.iter().zip(1..) {
@@ -191,7 +203,7 @@ impl Drawing<'_> {
             self.polyline(points, Stroke::new(width, ink));
         }
         if let Some(&first) = points.first() {
-            self.number(self.place(first) + Vec2::new(-11.0, -11.0), number, ink, look);
+            self.number(self.place(first) + NUMBER_AT, number, ink, look);
         }
     }
 

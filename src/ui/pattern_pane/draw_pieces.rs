@@ -1,9 +1,12 @@
 //! Draws pieces with their contents, and the threads between sewn edges.
 
-use egui::{Color32, FontId, Pos2, Rect, Shape, Stroke, Vec2, pos2};
+use std::sync::Arc;
+
+use egui::{Color32, FontId, Galley, Pos2, Rect, Shape, Stroke, Vec2, pos2};
 use glam::DVec2;
 
 use super::draw::Drawing;
+use super::labels::Labels;
 use super::shapes::PieceShape;
 use super::table::Table;
 use super::threads::Ends;
@@ -28,6 +31,17 @@ pub fn front_is_seen(piece: &Piece, shape: &PieceShape) -> bool {
 pub const BADGE: f32 = 7.5;
 /// Relative difference of two lengths up to which they count as equal; a larger one is intended.
 pub const EQUAL: f64 = 0.01;
+
+/// Room round a name on its patch, both sides together, points.
+const NAME_ROOM: Vec2 = Vec2::new(10.0, 3.0);
+
+/// The name of a piece, placed on the screen.
+pub struct Name {
+    patch: Rect,
+    /// Colour of the patch.
+    fill: Color32,
+    text: Arc<Galley>,
+}
 
 impl Drawing<'_> {
     /// Draws all visible pieces.
@@ -139,40 +153,46 @@ impl Drawing<'_> {
         }
     }
 
-    /// Draws the names of the pieces on a patch of the piece's colour, so that marks do not run through them. A name without
-    /// enough room is shortened; one whose place is taken by another name is drawn only while the pointer is over its piece.
-    pub fn names(&self, table: &Table<'_>) {
+    /// The names of the pieces where they cover no other text: in the middle of the piece, else above or below. Selected pieces and
+    /// the one under the pointer come first, with their whole names; a name without enough room is shortened, and one without a
+    /// place is left out.
+    pub fn placed_names(&self, table: &Table<'_>, labels: &mut Labels) -> Vec<Name> {
         let size = (self.view.scale * 0.028).clamp(10.5, 15.0) as f32;
-        let mut taken: Vec<Rect> = Vec::new();
         let stands_out = |id| {
             let item = Item::Piece(id);
             table.laid.selection.has(item) || table.laid.highlight == Some(item)
         };
-        let (first, rest): (Vec<_>, Vec<_>) = table.seen().partition(|(id, ..)| stands_out(*id));
-        for (id, piece, shape) in first.into_iter().chain(rest) {
-            if !self.is_in_view(piece, shape) {
-                continue;
-            }
+        let in_view = table.seen().filter(|(_, piece, shape)| self.is_in_view(piece, shape));
+        let (first, rest): (Vec<_>, Vec<_>) = in_view.partition(|(id, ..)| stands_out(*id));
+        let name = |(id, piece, shape): (PieceId, &Piece, &PieceShape)| {
             let front = front_is_seen(piece, shape);
             let fill = self.fill(table, (id, piece), front);
-            let name = words_on(piece, front);
             let corners = shape.corners().map(|p| self.place(piece.pose.plane_from_piece(p)));
-            let room = Rect::from_points(&corners).width() * 1.15;
-            let ink = self.palette.name_on(fill);
-            let mut job = egui::text::LayoutJob::simple_singleline(name, FontId::proportional(size), ink);
+            let bounds = Rect::from_points(&corners);
+            let (words, ink) = (words_on(piece, front), self.palette.name_on(fill));
+            let mut job = egui::text::LayoutJob::simple_singleline(words, FontId::proportional(size), ink);
             if !stands_out(id) {
-                job.wrap = egui::text::TextWrapping::truncate_at_width(room.max(26.0));
+                job.wrap = egui::text::TextWrapping::truncate_at_width((bounds.width() * 1.15).max(26.0));
             }
             let text = self.painter.layout_job(job);
             let middle = self.place(piece.pose.plane_from_piece(shape.middle));
-            let at = Rect::from_center_size(middle, text.size());
-            let patch = at.expand2(Vec2::new(5.0, 1.5));
-            if taken.iter().any(|other| other.intersects(patch)) {
-                continue;
-            }
-            taken.push(patch);
+            let patch = Rect::from_center_size(middle, text.size() + NAME_ROOM);
+            let is_on = |place: &Rect| {
+                place == &patch || table.piece_at(table.at(place.center())).is_some_and(|(at, _)| at == id)
+            };
+            let steps = [0.0, -1.0, 1.0, -2.0, 2.0, -3.0, 3.0, -5.0, 5.0];
+            let moved = steps.map(|step| patch.translate(Vec2::Y * (step * (patch.height() + 1.0))));
+            let places: Vec<Rect> = moved.into_iter().filter(is_on).collect();
+            Some(Name { patch: labels.take(&places)?, fill, text })
+        };
+        first.into_iter().chain(rest).filter_map(name).collect()
+    }
+
+    /// Draws names on a patch of the piece's colour, so that marks do not run through them.
+    pub fn names(&self, names: Vec<Name>) {
+        for Name { patch, fill, text } in names {
             self.painter.rect_filled(patch, 5.0, fill.gamma_multiply(0.88));
-            self.painter.galley(at.min, text, ink);
+            self.painter.galley(patch.min + NAME_ROOM / 2.0, text, self.palette.name_on(fill));
         }
     }
 

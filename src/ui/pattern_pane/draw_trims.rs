@@ -2,10 +2,11 @@
 
 use std::sync::Arc;
 
-use egui::{Align2, FontId, Pos2, Rect, Shape, Stroke, Vec2};
+use egui::{FontId, Pos2, Rect, Shape, Stroke, Vec2};
 use glam::DVec2;
 
 use super::draw::Drawing;
+use super::labels::{Labels, along};
 use super::table::Table;
 use crate::pattern::stitches::{Row, Thread, is_trimmed_alike, rows};
 use crate::pattern::{Button, Fold, Pattern, Piping, PlanePose, Trims, Wrinkle};
@@ -34,17 +35,17 @@ impl Rows {
 
 impl Drawing<'_> {
     /// Draws the trims of all visible pieces.
-    pub fn trims(&self, table: &Table<'_>) {
+    pub fn trims(&self, table: &Table<'_>, labels: &mut Labels) {
         for (_, piece, shape) in table.seen().filter(|(_, piece, shape)| self.is_in_view(piece, shape)) {
             for (i, points) in shape.edges.iter().enumerate() {
-                self.worked(&piece.pose, points, piece.edge(i).trims);
+                self.worked(&piece.pose, points, piece.edge(i).trims, labels);
             }
             for (line, points) in piece.lines.iter().zip(&shape.lines) {
                 let trims = line.edges.first().map(|edge| edge.trims).unwrap_or_default();
                 if let Some(wrinkle) = trims.wrinkle {
                     self.wrinkle(&piece.pose, points, wrinkle);
                 }
-                self.worked(&piece.pose, points, trims);
+                self.worked(&piece.pose, points, trims, labels);
             }
         }
         for row in table.rows {
@@ -115,13 +116,13 @@ impl Drawing<'_> {
         }
     }
 
-    fn worked(&self, pose: &PlanePose, points: &[DVec2], trims: Trims) {
+    fn worked(&self, pose: &PlanePose, points: &[DVec2], trims: Trims, labels: &mut Labels) {
         let points: Vec<DVec2> = points.iter().map(|&p| pose.plane_from_piece(p)).collect();
         if let Some(piping) = trims.piping {
             self.piping(&points, piping);
         }
         if let Some(fold) = trims.fold {
-            self.fold(&points, fold);
+            self.fold(&points, fold, labels);
         }
     }
 
@@ -146,19 +147,25 @@ impl Drawing<'_> {
         self.painter.add(Shape::line(points, Stroke::new(width, colour(piping.colour))));
     }
 
-    /// Draws a fold line: dashed, and its angle beside it where there is room.
-    fn fold(&self, points: &[DVec2], fold: Fold) {
+    /// Draws a fold line: dashed, and its angle beside it where it covers no other text.
+    fn fold(&self, points: &[DVec2], fold: Fold, labels: &mut Labels) {
         let ink = self.palette.guide;
         self.dashed(points, Stroke::new(2.2, ink));
-        let long: f64 = points.windows(2).map(|w| w[0].distance(w[1])).sum::<f64>() * self.view.scale;
-        let middle = points.len() / 2;
-        let pair = [points.get(middle.saturating_sub(1)), points.get(middle)];
-        if let [Some(a), Some(b)] = pair.map(|p| p.map(|&p| self.place(p)))
-            && long > 60.0
-        {
-            let words = format!("{:+.0}°", fold.angle.to_degrees());
-            let at = a + (b - a) / 2.0 + (b - a).normalized().rot90() * 9.0;
-            self.painter.text(at, Align2::CENTER_CENTER, words, FontId::proportional(11.0), ink);
+        let points: Vec<Pos2> = points.iter().map(|&p| self.place(p)).collect();
+        let long: f32 = points.windows(2).map(|w| w[0].distance(w[1])).sum();
+        if long <= 60.0 {
+            return;
+        }
+        let words = format!("{:+.0}°", fold.angle.to_degrees());
+        let text = self.painter.layout_no_wrap(words, FontId::proportional(11.0), ink);
+        let beside = |share: f32, side: f32| {
+            let (at, way) = along(&points, share)?;
+            Some(Rect::from_center_size(at + way.rot90() * (9.0 * side), text.size()))
+        };
+        let places = [(0.5, 1.0), (0.5, -1.0), (0.3, 1.0), (0.7, 1.0), (0.3, -1.0), (0.7, -1.0)];
+        let places: Vec<Rect> = places.into_iter().filter_map(|(share, side)| beside(share, side)).collect();
+        if let Some(place) = labels.take(&places) {
+            self.painter.galley(place.min, text, ink);
         }
     }
 }

@@ -31,6 +31,10 @@ pub struct Input {
     pub backspace: bool,
     /// Tab (1) or Shift+Tab (-1): select the next or previous item; else 0.
     pub next: i32,
+    /// Page down (1) or Page up (-1): select an item of the next or previous kind; else 0.
+    pub next_kind: i32,
+    /// Space: keep what is selected while more is, or no longer.
+    pub keeps: bool,
     /// Movement by arrow keys, metres.
     pub nudge: DVec2,
 }

@@ -9,6 +9,7 @@ mod entry;
 mod guides;
 mod input;
 pub(in crate::ui) mod kept;
+mod labels;
 pub mod line_points;
 mod names;
 pub(in crate::ui) mod nests;
@@ -46,6 +47,7 @@ use entry::Entry;
 use guides::Guides;
 use input::Input;
 pub use kept::Options;
+use labels::Labels;
 pub use names::seam_words;
 use nests::{Nests, SizeView};
 use pictures::Pictures;
@@ -86,6 +88,8 @@ pub struct PatternPane {
     pub hovered: bool,
     /// Area of the pane on the screen in the last frame.
     pub area: Option<Rect>,
+    /// Areas of the strip of tools and of the bar with options of the tool in the last frame.
+    pub bars: [Option<Rect>; 2],
     /// Id of the pane's widget, for the keyboard focus.
     pub id: Option<egui::Id>,
     /// Response of the pane in this frame, for the context menu.
@@ -216,11 +220,15 @@ impl PatternPane {
             drawing.painter.rect_stroke(pane, 0.0, ring, egui::StrokeKind::Inside);
         }
         names::publish(ui, &table);
+        let by_keys = response.has_focus().then(|| tool.selected_by_keys(&table).or(laid.selection.only()));
+        if let Some(item) = by_keys.flatten() {
+            names::announce(ui, &table, item);
+        }
         let mut options = self.options;
-        options::options_ui(ui, &table, &mut options, asks);
+        let options_bar = options::options_ui(ui, &table, &mut options, asks);
         let dragged = rulers.ui(ui, &table.view, pane, laid.unit, laid.palette, at);
         self.take_entry(ui, laid, pane, &mut *tool, asks);
-        (self.response, self.options) = (Some(response), options);
+        (self.response, self.options, self.bars) = (Some(response), options, [Some(strip), options_bar]);
         (self.under, self.tool, self.value) = (under, Some((laid.tool, tool)), value);
         self.guides.take(&self.view, pane, dragged);
     }
@@ -260,6 +268,12 @@ impl PatternPane {
             (Some((_, tool)), Some(pane)) => format!("{} · {view}", tool.hint(&self.table(laid, pane))),
             _ => view,
         }
+    }
+
+    /// The hint of the pane for the status bar while it has the keyboard and not the pointer; None: that of the pointer.
+    pub fn hint_by_keys(&self, ctx: &egui::Context) -> Option<&'static str> {
+        let is_by_keys = self.has_focus(ctx) && !self.hovered && !self.is_busy();
+        self.tool.as_ref().filter(|_| is_by_keys).and_then(|(_, tool)| tool.hint_by_keys())
     }
 
     fn table<'a>(&'a self, laid: &'a Laid<'a>, pane: Rect) -> Table<'a> {
@@ -375,6 +389,9 @@ impl PatternPane {
             let held = input.held;
             let tabs = ui.input(|i| i.num_presses(Key::Tab) as i32);
             input.next = if held.shift { -tabs } else { tabs };
+            let pressed = |key| i32::from(ui.input(|i| i.key_pressed(key)));
+            input.next_kind = pressed(Key::PageDown) - pressed(Key::PageUp);
+            input.keeps = !tool.draws() && held.is_none() && pressed(Key::Space) > 0;
         }
         self.move_cursor(ui, response, pane, tool, &mut input);
         input
@@ -482,7 +499,10 @@ fn draw_table(drawing: &Drawing<'_>, table: &Table<'_>, new_guide: Option<&Guide
     drawing.pieces(table);
     drawing.nests(table);
     drawing.seams(table);
-    drawing.trims(table);
+    let numbers = drawing.numbers(pattern, &document.marks);
+    let mut labels = Labels::beside(numbers);
+    let names = drawing.placed_names(table, &mut labels);
+    drawing.trims(table, &mut labels);
     drawing.edges_standing_out(table);
     drawing.spot(table);
     let near = at.and_then(|at| table.mark_at(table.at(at)));
@@ -490,7 +510,7 @@ fn draw_table(drawing: &Drawing<'_>, table: &Table<'_>, new_guide: Option<&Guide
     if let Some(ghosts) = ghosts {
         drawing.ghosts(pattern, ghosts);
     }
-    drawing.names(table);
+    drawing.names(names);
     if tool == Tool::Sew {
         drawing.badges(table);
     }

@@ -10,8 +10,13 @@ use crate::ui::language::keys::shortcut_text;
 use crate::ui::language::{counted, tr};
 use crate::ui::panels::fields::length_field;
 
-/// Draws the bar; nothing for tools without options.
-pub fn options_ui(ui: &mut egui::Ui, table: &Table<'_>, options: &mut Options, asks: &mut Asks) {
+/// Draws the bar and returns its area; nothing for tools without options.
+pub fn options_ui(
+    ui: &mut egui::Ui,
+    table: &Table<'_>,
+    options: &mut Options,
+    asks: &mut Asks,
+) -> Option<Rect> {
     let twisted = table.threads.twisted().count();
     let wanted = match table.laid.tool {
         Tool::Cut | Tool::Dart => true,
@@ -19,11 +24,11 @@ pub fn options_ui(ui: &mut egui::Ui, table: &Table<'_>, options: &mut Options, a
         _ => twisted > 0,
     };
     if !wanted {
-        return;
+        return None;
     }
     let area = Rect::from_min_size(table.pane.min + vec2(8.0, 6.0), vec2(table.pane.width() - 16.0, 30.0));
     let palette = table.laid.palette;
-    ui.scope_builder(
+    let shown = ui.scope_builder(
         UiBuilder::new().max_rect(area).layout(egui::Layout::left_to_right(egui::Align::Center)),
         |ui| {
             Frame::new()
@@ -68,7 +73,10 @@ pub fn options_ui(ui: &mut egui::Ui, table: &Table<'_>, options: &mut Options, a
                             asks.push(Ask::Act(Action::Untwist));
                         }
                     }
-                });
+                })
+                .response
+                .rect
         },
     );
+    Some(shown.inner)
 }

@@ -269,6 +269,7 @@ mod tests {
             lighting: Lighting {
                 light: Light::Evening,
                 environment: Some("/home/me/garden.hdr".into()),
+                is_put_aside: true,
                 rotation: Rotation(90),
             },
             depth_of_field: DepthOfField { is_on: true, f_number: FNumber(5.6) },

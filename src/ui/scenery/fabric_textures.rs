@@ -10,13 +10,13 @@ use image::{ImageFormat, RgbImage};
 
 use crate::cloth::Garment;
 use crate::geometry::ids::PieceId;
+use crate::geometry::words::{Words, words};
 use crate::io::atlas::{Atlas, AtlasLayout, AtlasPlace};
 use crate::io::materials::{ClothMaterial, ClothTextures, Colours, TextureImage, Textures};
 use crate::pattern::Pattern;
 use crate::render::bake::{self, Chart, Side};
 use crate::render::{CLOTH_BACK, Textile, cloth_front};
 use crate::session::Document;
-use crate::ui::language::say;
 use crate::ui::scenery::fabric_looks::{PieceLook, looks_of, material_of};
 use crate::ui::scenery::pictures::cloth_from_piece;
 
@@ -48,13 +48,16 @@ pub struct TextureOptions {
 }
 
 /// Materials with textures of the pieces of `garment`, cut from `pattern`, with the fabrics of `document`. Pieces that cover each
-/// other on the table are packed. The error is a message.
+/// other on the table are packed.
+///
+/// # Errors
+/// In words: a texture that cannot be encoded.
 pub fn textured(
     garment: &Garment,
     pattern: &Pattern,
     document: &Document,
     options: TextureOptions,
-) -> Result<Colours, String> {
+) -> Result<Colours, Words> {
     let looks = looks_of(document);
     let look = |piece: PieceId| looks.get(&piece).cloned().unwrap_or_default();
     let mut atlas = Atlas::new(garment, pattern, options.layout);
@@ -149,16 +152,18 @@ struct Images {
 }
 
 impl Images {
-    fn add(&mut self, name: String, image: &RgbImage) -> Result<usize, String> {
+    fn add(&mut self, name: String, image: &RgbImage) -> Result<usize, Words> {
         let mut bytes = Cursor::new(Vec::new());
         let written = image.write_to(&mut bytes, ImageFormat::Png);
-        written.map_err(|why| say!("the texture {name} cannot be encoded: {why}", name, why))?;
+        written.map_err(|why| {
+            words!("the texture {name} cannot be encoded: {why}", name, why = why.to_string())
+        })?;
         self.written.push(TextureImage { name, png: Arc::new(bytes.into_inner()) });
         Ok(self.written.len() - 1)
     }
 
     /// The tile of the weave of `textile` and its size in metres.
-    fn weave(&mut self, textile: &Textile) -> Result<Option<(usize, Vec2)>, String> {
+    fn weave(&mut self, textile: &Textile) -> Result<Option<(usize, Vec2)>, Words> {
         let is_alike = |other: &Textile| {
             (other.weave, other.pitch, other.relief) == (textile.weave, textile.pitch, textile.relief)
         };

@@ -17,22 +17,46 @@ const VIEWS: [(View, &str); 2] = [(View::Front, "Front"), (View::Back, "Back")];
 /// Size of a picture, pixels.
 const SIZE: UVec2 = UVec2::new(860, 980);
 
-/// The garment of `session` on its body from both sides, at one scale; `draw` gives straight alpha. None where nothing is dressed.
-pub fn front_and_back(
-    session: &Session,
-    scenery: &mut Scenery,
-    mut draw: impl FnMut(&Scene, &Camera, &Look, UVec2) -> Result<RgbaImage, RenderError>,
-) -> Option<Result<Vec<Picture>, RenderError>> {
-    let outfit = Outfit::of(session.snapshot(), &session.document().fabrics)?;
-    let scene = portrait(scenery, session, Extras::default());
-    let look = Look { cut_out: true, ..Look::light() };
-    let cameras = cameras(&scene, &outfit);
-    let images = cameras.iter().map(|camera| draw(&scene, camera, &look, SIZE));
-    let images: Result<Vec<RgbaImage>, RenderError> = images.collect();
-    Some(images.map(|images| {
+/// Pictures of a dressed garment from both sides, at one scale, that are drawn one by one.
+#[derive(Debug)]
+pub struct FrontAndBack {
+    scene: Scene,
+    cameras: [Camera; VIEWS.len()],
+    /// The pictures drawn so far, in the order of `cameras`.
+    images: Vec<RgbaImage>,
+}
+
+impl FrontAndBack {
+    /// Plans the pictures of the garment of `session` as it is now; None where nothing is dressed.
+    pub fn of(session: &Session, scenery: &mut Scenery) -> Option<Self> {
+        let outfit = Outfit::of(session.snapshot(), &session.document().fabrics)?;
+        let scene = portrait(scenery, session, Extras::default());
+        let cameras = cameras(&scene, &outfit);
+        Some(Self { scene, cameras, images: Vec::new() })
+    }
+
+    /// Number of pictures drawn, and number of all pictures.
+    pub fn progress(&self) -> (usize, usize) {
+        (self.images.len(), self.cameras.len())
+    }
+
+    /// Draws the next picture with `draw`, whose result has straight (not premultiplied) alpha; nothing where all are drawn.
+    pub fn draw_next(
+        &mut self,
+        draw: impl FnOnce(&Scene, &Camera, &Look, UVec2) -> Result<RgbaImage, RenderError>,
+    ) -> Result<(), RenderError> {
+        let Some(camera) = self.cameras.get(self.images.len()) else { return Ok(()) };
+        let look = Look { cut_out: true, ..Look::light() };
+        self.images.push(draw(&self.scene, camera, &look, SIZE)?);
+        Ok(())
+    }
+
+    /// The pictures drawn so far, cropped alike.
+    pub fn pictures(&self) -> Vec<Picture> {
         let titles = VIEWS.iter().map(|(_, title)| *title);
-        titles.zip(cropped(&images)).map(|(title, image)| Picture { title, image: Arc::new(image) }).collect()
-    }))
+        let cropped = cropped(&self.images);
+        titles.zip(cropped).map(|(title, image)| Picture { title, image: Arc::new(image) }).collect()
+    }
 }
 
 /// All images without the edges in which none of them shows anything.

@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 use crate::cloth::trim_parts::{MOST_MOVING, MOST_STILL};
 use crate::cloth::{ClothState, Garment, TrimParts, TrimShapes};
 use crate::geometry::mesh::TriMesh;
+use crate::geometry::words::{Words, words};
 use crate::io::atlas::AtlasLayout;
 use crate::io::dressed::Dressed;
 use crate::io::materials::Colours;
@@ -13,7 +14,6 @@ use crate::io::words::any_of;
 use crate::io::{glb, mtl, obj};
 use crate::pattern::Pattern;
 use crate::session::Document;
-use crate::ui::language::{counted, said, say};
 use crate::ui::scenery::fabric_looks::materials;
 use crate::ui::scenery::fabric_textures::{Relief, TextureOptions, USUAL_SIDE, textured};
 
@@ -56,7 +56,7 @@ pub struct WornFiles {
     /// Paths and contents; the first is the one that was asked for, the others belong beside it.
     pub files: Vec<(PathBuf, Vec<u8>)>,
     /// What is left out of them, a line each.
-    pub left_out: Vec<String>,
+    pub left_out: Vec<Words>,
 }
 
 /// What dressed cloth that moves is written with.
@@ -67,11 +67,11 @@ pub struct MovingWorn {
     /// Its trims.
     pub trims: TrimParts,
     /// What is left out, a line each.
-    pub left_out: Vec<String>,
+    pub left_out: Vec<Words>,
 }
 
 impl Worn<'_> {
-    fn colours(self, options: WornOptions, relief: Relief, inside: bool) -> Result<Colours, String> {
+    fn colours(self, options: WornOptions, relief: Relief, inside: bool) -> Result<Colours, Words> {
         let WornOptions { side, layout, trims: _ } = options;
         match side {
             0 => Ok(materials(self.document)),
@@ -84,19 +84,17 @@ impl Worn<'_> {
 
     /// Its trims as a picture has them: those of the document, which may be newer than the cloth. They have at most `most` vertices of
     /// stitches and teeth; there are none where they are not wanted.
-    fn trims(self, options: WornOptions, most: usize) -> (TrimParts, Vec<String>) {
+    fn trims(self, options: WornOptions, most: usize) -> (TrimParts, Vec<Words>) {
         if !options.trims {
             return (TrimParts::default(), Vec::new());
         }
         let shapes = TrimShapes::new(self.garment, &self.document.pattern);
         let trims = TrimParts::new(&shapes, self.garment, self.cloth, most);
-        let left_out = (trims.left_out > 0).then(|| {
-            counted(
-                trims.left_out,
-                "1 row of stitches is left out: there would be too many vertices",
-                "{n} rows of stitches are left out: there would be too many vertices",
-            )
-        });
+        let left_out = match trims.left_out {
+            0 => None,
+            1 => Some(words!("1 row of stitches is left out: there would be too many vertices")),
+            n => Some(words!("{n} rows of stitches are left out: there would be too many vertices", n)),
+        };
         (trims, left_out.into_iter().collect())
     }
 
@@ -110,11 +108,11 @@ impl Worn<'_> {
         options: WornOptions,
         body: Option<&TriMesh>,
         path: &Path,
-    ) -> Result<WornFiles, String> {
+    ) -> Result<WornFiles, Words> {
         let ending = ending(path);
         let format = UsdFormat::of_ending(&ending);
         if !ENDINGS.contains(&ending.as_str()) {
-            return Err(say!("the name must end in {endings}", endings = said(&any_of(ENDINGS))));
+            return Err(words!("the name must end in {endings}", endings = any_of(ENDINGS)));
         }
         let (trims, left_out) = self.trims(options, MOST_STILL);
         let Self { garment, cloth: state, pattern, .. } = self;
@@ -124,7 +122,7 @@ impl Worn<'_> {
             ("obj", _) => self.obj(options, &dressed, path)?,
             _ => {
                 let colours = self.colours(options, Relief::Tiles, true)?;
-                let bytes = glb::write(Some(dressed), body, &colours).map_err(|e| said(&e.words()))?;
+                let bytes = glb::write(Some(dressed), body, &colours).map_err(|e| e.words())?;
                 vec![(path.to_owned(), bytes)]
             }
         };
@@ -135,7 +133,7 @@ impl Worn<'_> {
     ///
     /// # Errors
     /// In words: what is larger than a texture allows.
-    pub fn moving(self, options: WornOptions) -> Result<MovingWorn, String> {
+    pub fn moving(self, options: WornOptions) -> Result<MovingWorn, Words> {
         let (trims, left_out) = self.trims(options, MOST_MOVING);
         Ok(MovingWorn { colours: self.colours(options, Relief::Tiles, true)?, trims, left_out })
     }
@@ -151,16 +149,16 @@ impl Worn<'_> {
         body: Option<&TriMesh>,
         path: &Path,
         format: UsdFormat,
-    ) -> Result<Vec<(PathBuf, Vec<u8>)>, String> {
+    ) -> Result<Vec<(PathBuf, Vec<u8>)>, Words> {
         let colours = self.colours(options, Relief::Tiles, false)?;
         let stem = stem(path);
         let image_path = |name: &str| match format {
             UsdFormat::Text => format!("{stem}-{name}.png"),
             UsdFormat::Package => packed_image(name),
         };
-        let scene = UsdScene::new(*dressed, body, &colours, image_path).map_err(|e| said(&e.words()))?;
+        let scene = UsdScene::new(*dressed, body, &colours, image_path).map_err(|e| e.words())?;
         if format == UsdFormat::Package {
-            return Ok(vec![(path.to_owned(), scene.package().map_err(|e| said(&e.words()))?)]);
+            return Ok(vec![(path.to_owned(), scene.package().map_err(|e| e.words())?)]);
         }
         let images = scene.images().iter().map(|(name, png)| (path.with_file_name(name), png.to_vec()));
         Ok(std::iter::once((path.to_owned(), scene.text().into())).chain(images).collect())
@@ -175,7 +173,7 @@ impl Worn<'_> {
         options: WornOptions,
         dressed: &Dressed<'_>,
         path: &Path,
-    ) -> Result<Vec<(PathBuf, Vec<u8>)>, String> {
+    ) -> Result<Vec<(PathBuf, Vec<u8>)>, Words> {
         let colours = self.colours(options, Relief::Atlas, false)?;
         let stem = stem(path);
         let image_name = |name: &str| format!("{stem}-{name}.png");
@@ -220,6 +218,7 @@ mod tests {
 
     use super::*;
     use crate::cloth::build;
+    use crate::language::{Table, said, shown_in};
     use crate::pattern::{Piece, Topstitch};
 
     #[test]
@@ -239,6 +238,11 @@ mod tests {
         for name in ["cloth.dxf", "cloth", ".obj"] {
             assert!(refused(name), "{name}");
         }
+        let german = |words: &Words| shown_in(Table::german(), || said(words));
+        let [ending, empty] =
+            ["cloth.dxf", "cloth.glb"].map(|name| german(&files(name).expect_err("refused")));
+        assert_eq!(ending, "der Name muss auf .obj, .glb, .usda oder .usdz enden");
+        assert_eq!(empty, "es gibt nichts zu schreiben: noch liegt kein Stoff auf dem Körper");
     }
 
     #[test]

@@ -279,7 +279,8 @@ fn view_ui(ui: &mut egui::Ui, now: &FrameContext, asks: &mut Asks) {
         items(ui, now, asks, &Theme::ALL.map(Action::Theme));
         ui.separator();
         items(ui, now, asks, &Light::ALL.map(Action::Light));
-        items(ui, now, asks, &[Action::EnvironmentMap, Action::RotateEnvironment]);
+        let environment = [Action::EnvironmentMap, Action::ToggleEnvironment, Action::RotateEnvironment];
+        items(ui, now, asks, &environment);
         ui.separator();
         items(ui, now, asks, &[Action::ToggleDepthOfField, Action::SetAperture]);
         ui.separator();

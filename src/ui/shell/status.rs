@@ -2,9 +2,12 @@
 
 use egui::{Align, Layout, ProgressBar, RichText};
 
+use crate::drag::DragMode;
 use crate::sim::DrapeState;
 use crate::sim::Start;
 use crate::ui::actions::context::FrameContext;
+use crate::ui::actions::{Action, Tool};
+use crate::ui::language::keys::shortcut_text;
 use crate::ui::language::{number, say, tr};
 use crate::ui::look::theme::Palette;
 use crate::ui::shell::pace::{Pace, left_words};
@@ -48,6 +51,37 @@ pub fn status_ui(ui: &mut egui::Ui, now: &FrameContext, hint: &str, palette: &Pa
             ui.add(egui::Label::new(weak(hint.to_owned())).truncate());
         });
     });
+}
+
+/// What can be done next, in words.
+pub fn next_step(ctx: &egui::Context, now: &FrameContext) -> String {
+    let key = |action| match now.keymap.keys(action).first() {
+        Some(keys) => shortcut_text(ctx, keys),
+        None => tr(action.row().text).to_owned(),
+    };
+    if now.wrapping {
+        return say!("The cloth is being put on the body · {key}: cancel", key = key(Action::CancelWrap));
+    }
+    if !now.dressed {
+        return if now.is_for_dress() {
+            tr("Press Dress: the pieces that stand round the body are sewn and draped.").to_owned()
+        } else {
+            tr("Paint a mark on a piece and one on the body where it should lie, then press Wrap.").to_owned()
+        };
+    }
+    let drag = Action::Choose(Tool::Drag(DragMode::Surface));
+    let mut steps = vec![
+        say!("{key}: drag the cloth", key = key(drag)),
+        say!("{key}: pin it", key = key(Action::Choose(Tool::Pin))),
+        match now.is_on(Action::ToggleDrape) {
+            true => say!("{key}: pause draping", key = key(Action::ToggleDrape)),
+            false => say!("{key}: drape it", key = key(Action::ToggleDrape)),
+        },
+    ];
+    if !now.working {
+        steps.push(tr("View › Map: read its fit").to_owned());
+    }
+    steps.join(" · ")
 }
 
 fn pace_words(pace: &Pace) -> Option<String> {

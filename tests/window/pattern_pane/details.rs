@@ -283,3 +283,37 @@ fn a_wrinkle_is_in_the_menu_for_lines_inside_pieces() {
     click(&mut window, edge);
     assert!(window.query_by_role_and_label(egui::accesskit::Role::CheckBox, "Wrinkle").is_none());
 }
+
+/// The texts on the table of `sample` that name a piece or an angle of a fold line, and their places.
+fn texts_on_table(sample: toile::session::samples::Sample) -> (Vec<(String, egui::Rect)>, Vec<String>) {
+    let mut window = crate::window_on(sample.project(&toile::body::mannequin::default()), None);
+    window.run_steps(4);
+    let names: Vec<String> = pattern(&window).pieces.values().map(|piece| piece.name.clone()).collect();
+    let pane = window.get_by_label("Pattern pane").rect();
+    let on_table = window.output().shapes.iter().filter(|shape| {
+        let clip = shape.clip_rect;
+        (clip.min - pane.min).length() < 2.0 && (clip.max - pane.max).length() < 2.0
+    });
+    let texts = on_table.filter_map(|shape| {
+        let egui::Shape::Text(text) = &shape.shape else { return None };
+        let words = text.galley.text().to_owned();
+        let is_label = words.ends_with('°') || names.iter().any(|name| words.starts_with(name.as_str()));
+        is_label.then(|| (words, shape.shape.visual_bounding_rect()))
+    });
+    (texts.collect(), names)
+}
+
+#[test]
+fn names_and_angles_on_narrow_pieces_do_not_cover_each_other() {
+    use toile::session::samples::Sample;
+    for sample in [Sample::PleatedSkirt, Sample::Coat, Sample::Tshirt] {
+        let (texts, names) = texts_on_table(sample);
+        for (i, (words, place)) in texts.iter().enumerate() {
+            for (other, taken) in &texts[..i] {
+                assert!(!place.intersects(*taken), "{sample:?}: {words} covers {other}");
+            }
+        }
+        let named = texts.iter().filter(|(words, _)| !words.ends_with('°')).count();
+        assert!(2 * named >= names.len(), "{sample:?}: {named} of {} pieces are named", names.len());
+    }
+}

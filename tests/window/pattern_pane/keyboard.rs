@@ -1,5 +1,7 @@
 //! Without a pointer.
 
+use toile::pattern::{Edge, InternalLine};
+
 use super::*;
 
 #[test]
@@ -162,4 +164,51 @@ fn what_is_no_number_is_told_and_stays_to_be_mended() {
     assert!(window.query_by_label_contains("is not understood").is_some());
     press(&mut window, Key::Escape);
     assert!(window.query_by_label_contains("is not understood").is_none());
+}
+
+/// Whether the pane says to screen readers that `item` was selected.
+fn is_told(window: &Window, item: &str) -> bool {
+    window.query_by_label(&format!("{item} (selected)")).is_some()
+}
+
+#[test]
+fn points_edges_lines_and_seams_are_selected_by_keys_alone() {
+    let mut drawn = twisted();
+    let a = drawn.piece_named("A").expect("a square");
+    let edge = Edge { start: DVec2::new(0.05, 0.1), ..Edge::default() };
+    let line = InternalLine { edges: vec![edge], end: DVec2::new(0.15, 0.1), ..InternalLine::default() };
+    Arc::make_mut(drawn.pieces.get_mut(&a).expect("a square")).lines.push(line);
+    let mut window = window_on(drawn);
+    press(&mut window, Key::A);
+    press(&mut window, Key::F6);
+    assert!(window.query_by_label_contains("Tab: next point").is_some(), "the keys are told");
+    press(&mut window, Key::Tab);
+    assert!(is_told(&window, "A, point 1"));
+    press(&mut window, Key::Tab);
+    for item in ["A, edge 2: 20 cm", "A, line 1", "Seam: A edge 1 – B edge 1", "A, point 1"] {
+        press(&mut window, Key::PageDown);
+        assert!(is_told(&window, item), "{item}");
+    }
+    press(&mut window, Key::PageUp);
+    press(&mut window, Key::Tab);
+    press(&mut window, Key::Tab);
+    assert!(is_told(&window, "Seam: A edge 2 – B edge 4, twisted"));
+    press(&mut window, Key::PageUp);
+    press(&mut window, Key::PageUp);
+    assert!(is_told(&window, "A, edge 1: 20 cm"));
+    press(&mut window, Key::Space);
+    press(&mut window, Key::Tab);
+    press(&mut window, Key::Tab);
+    let is_selected = |window: &Window, label: &str| {
+        window.get_by_label(label).accesskit_node().toggled() == Some(egui::accesskit::Toggled::True)
+    };
+    for (edge, selected) in [(1, true), (2, false), (3, true), (4, false)] {
+        let label = format!("A, edge {edge}: 20 cm");
+        assert_eq!(is_selected(&window, &label), selected, "{label}");
+    }
+    press(&mut window, Key::ArrowRight);
+    assert_eq!(steps(&window).len(), 1, "both edges are moved in one step");
+    let moved = pattern(&window);
+    let corners = piece(&moved, "A").outline.iter().map(|edge| edge.start.x);
+    assert!(corners.zip([0.0, 0.2, 0.2, 0.0]).all(|(x, before)| (x - before - 0.001).abs() < 1e-9));
 }

@@ -70,8 +70,13 @@ fn at(window: &Window, x: f32, y: f32) -> Pos2 {
     window.get_by_label("Pattern pane").rect().center() + Vec2::new(x, y)
 }
 
+/// Where the item of this name is shown; it may be announced as selected, too.
 fn place(window: &Window, label: &str) -> Pos2 {
-    window.get_by_label_contains(label).rect().center()
+    let is_item = |node: &egui_kittest::Node<'_>| {
+        node.accesskit_node().label().is_none_or(|label| !label.ends_with("(selected)"))
+    };
+    let mut items = window.get_all_by_label_contains(label).filter(is_item);
+    items.next().expect("an item of this name").rect().center()
 }
 
 fn button(window: &mut Window, at: Pos2, pressed: bool, modifiers: Modifiers) {

@@ -96,7 +96,8 @@ pub const ROWS: &[Row] = &[
         "Marker…",
         "Lay all pieces out on a width of cloth, to be cut: length, yield, and the layout as .pdf, .svg or .dxf",
     )
-    .needs(&[Need::Pieces]),
+    .needs(&[Need::Pieces])
+    .in_demos(),
     row(
         "File",
         Action::Picture,

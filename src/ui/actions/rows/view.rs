@@ -146,7 +146,7 @@ pub const ROWS: &[Row] = &[
         "View",
         Action::NextPane,
         "Next pane",
-        "Give the keyboard to the pattern, the body, the side panel or the tools",
+        "Give the keyboard to the next pane or bar: pattern, body, side panel, tools, menus",
     )
     .keys(&[key(Key::F6)])
     .in_demos(),
@@ -179,6 +179,14 @@ pub const ROWS: &[Row] = &[
     .in_demos(),
     row(
         "View › Theme",
+        Action::ToggleEnvironment,
+        "Light by environment map",
+        "Light the scene by the environment map that was chosen last, or by the light alone",
+    )
+    .needs(&[Need::KeptEnvironment])
+    .in_demos(),
+    row(
+        "View › Theme",
         Action::RotateEnvironment,
         "Rotate environment map",
         "Turn the light of the environment map about the vertical axis",
@@ -198,6 +206,7 @@ pub const ROWS: &[Row] = &[
         "Depth of field",
         "Blur what is nearer or farther than the surface in the middle of the picture, as a lens does",
     )
+    .needs(&[Need::Perspective])
     .in_demos(),
     row(
         "View › Theme",
@@ -205,6 +214,6 @@ pub const ROWS: &[Row] = &[
         "Set aperture",
         "Choose the f-number: the smaller it is, the stronger the blur",
     )
-    .needs(&[Need::DepthOfField])
+    .needs(&[Need::Perspective, Need::DepthOfField])
     .in_demos(),
 ];

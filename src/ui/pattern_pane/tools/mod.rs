@@ -10,6 +10,7 @@ mod points;
 mod select;
 mod sew;
 mod shape;
+mod walk;
 
 use egui::CursorIcon;
 use glam::DVec2;
@@ -75,6 +76,16 @@ pub trait PatternTool: std::fmt::Debug {
 
     /// The mark being painted: its piece, and its points in the piece's plane.
     fn stroke(&self) -> Option<(PieceId, &[DVec2])> {
+        None
+    }
+
+    /// The item that was selected last by keys, while it is.
+    fn selected_by_keys(&self, _table: &Table<'_>) -> Option<Item> {
+        None
+    }
+
+    /// The hint for the status bar while the pane has the keyboard and not the pointer; None: that of the pointer.
+    fn hint_by_keys(&self) -> Option<&'static str> {
         None
     }
 

@@ -5,7 +5,7 @@ use std::collections::BTreeSet;
 use egui::{CursorIcon, Pos2, Rect, Stroke};
 use glam::DVec2;
 
-use super::select::next;
+use super::walk::Walk;
 use super::{PatternTool, done, dragged, grade};
 use crate::geometry::ids::PieceId;
 use crate::pattern::edit::{LinePoint, PatternEdit, PointRef};
@@ -23,6 +23,7 @@ use crate::ui::selection::{Item, LineRef, Selection};
 #[derive(Debug, Default)]
 pub struct Points {
     drag: Option<Drag>,
+    walk: Walk,
 }
 
 #[derive(Debug)]
@@ -254,11 +255,7 @@ impl PatternTool for Points {
             };
             asks.extend(edits.map(done));
         }
-        if input.next != 0 {
-            let all: Vec<Item> = table.points_shown().map(|(point, _)| point.into()).collect();
-            let chosen = table.laid.selection.all_points().last().map(Item::from);
-            asks.extend(next(&all, chosen, input.next).map(|item| Ask::Pick(Selection::of(item))));
-        }
+        self.walk.step(table, input, asks);
     }
 
     fn draw(&self, drawing: &Drawing<'_>, table: &Table<'_>, input: &Input) {
@@ -352,6 +349,16 @@ impl PatternTool for Points {
             _ if table.size().is_none() && handle_at(table, at).is_some() => CursorIcon::PointingHand,
             _ => CursorIcon::Default,
         }
+    }
+
+    fn selected_by_keys(&self, table: &Table<'_>) -> Option<Item> {
+        self.walk.shown(table.laid.selection)
+    }
+
+    fn hint_by_keys(&self) -> Option<&'static str> {
+        Some(tr(
+            "Tab: next point · Page down: edges, lines, seams · Space: keep it, to select more · Arrows: move · F6: on to the side panel, with what is sewn on there",
+        ))
     }
 
     fn hint(&self, table: &Table<'_>) -> String {

@@ -5,12 +5,16 @@ use std::sync::Arc;
 use glam::{DVec2, DVec3};
 use toile::body::{NamedPose, mannequin};
 use toile::draft::{Design, Form, Kind};
-use toile::io::garmentcode;
-use toile::pattern::edit::{PatternEdit, PointRef};
+use toile::geometry::ids::PieceId;
+use toile::geometry::polygon;
+use toile::io::{allowance_line, garmentcode};
+use toile::pattern::edit::{PatternEdit, PointRef, TrimLine};
 use toile::pattern::grading::{READY_SIZES, graded};
-use toile::pattern::{EdgeRef, GradeRule, Piece, PlanePose, RulePoint, Seam};
+use toile::pattern::{
+    AllowanceCorner, EdgeRef, GradeRule, Hem, Pattern, Piece, PlanePose, RulePoint, Seam, Side, Topstitch,
+};
 use toile::session::samples::{Sample, seal};
-use toile::session::{BodyChoice, Command, Dye, Motif, Print, Project};
+use toile::session::{BodyChoice, Command, Dye, Graphic, ImageFile, Motif, Print, Project};
 use toile::sim::StartChoice;
 use toile::wrap::{ClothSide, Marks};
 
@@ -24,6 +28,12 @@ fn edit(edits: Vec<PatternEdit>) -> Command {
 fn laid_at(x: f64, y: f64) -> PlanePose {
     PlanePose { offset: DVec2::new(x, y), ..PlanePose::default() }
 }
+
+/// Mesh size of the jacket, metres: coarser than usual, so that it comes to rest sooner.
+const MESH: f64 = 0.03;
+
+/// By what share of its side seams the coat becomes a jacket, and where its grainlines begin then, metres.
+const SHORTER: [f64; 2] = [0.45, -0.3];
 
 /// Height of the hem below the waist, half widths at hem and waist, metres.
 const SKIRT: [f64; 3] = [0.58, 0.31, 0.225];
@@ -172,6 +182,161 @@ pub fn posing() -> Stage {
         stage.give(Command::Repose { body, settle: true, draft: false });
         stage.rest();
     }
+    stage
+}
+
+/// The edges of a piece that have this label.
+fn labelled(stage: &Stage, piece: PieceId, label: &str) -> Vec<EdgeRef> {
+    let shape = &stage.session.document().pattern.pieces[&piece];
+    let is_named = |&edge: &usize| shape.edge(edge).label.as_deref() == Some(label);
+    (0..shape.edge_count()).filter(is_named).map(|edge| EdgeRef { piece, edge }).collect()
+}
+
+/// The edges with one of these labels, of all pieces.
+fn all_labelled(pattern: &Pattern, labels: &[&str]) -> Vec<TrimLine> {
+    let edges = pattern.pieces.iter().flat_map(|(&piece, shape)| {
+        let is_meant = |&edge: &usize| shape.edge(edge).label.as_deref().is_some_and(|l| labels.contains(&l));
+        (0..shape.edge_count()).filter(is_meant).map(move |edge| EdgeRef { piece, edge })
+    });
+    edges.map(TrimLine::Edge).collect()
+}
+
+/// Makes a jacket of the coat.
+fn shortened(stage: &Stage, pattern: &Pattern) -> Vec<PatternEdit> {
+    let mut points = Vec::new();
+    let mut grainlines = Vec::new();
+    // Lower and upper ends of the side seams. Point 0 of each piece is the end of its hem in the middle of the body.
+    let bodies: [(&str, &[[usize; 2]]); 3] =
+        [("front left", &[[1, 2]]), ("front right", &[[6, 5]]), ("back", &[[1, 2], [9, 8]])];
+    for (name, sides) in bodies {
+        let piece = stage.piece(name);
+        let shape = &pattern.pieces[&piece];
+        let mut level = 0.0;
+        for &[low, high] in sides {
+            let [low_end, high_end] = [low, high].map(|point| shape.edge(point).start);
+            let to = low_end + (high_end - low_end) * SHORTER[0];
+            level = to.y;
+            points.push((PointRef { piece, point: low }, to));
+        }
+        points.push((PointRef { piece, point: 0 }, DVec2::new(shape.edge(0).start.x, level)));
+        let [tail, head] = shape.grainline.expect("a grainline");
+        let grainline = Some([DVec2::new(tail.x, SHORTER[1]), head]);
+        grainlines.push(PatternEdit::SetGrainline { piece, grainline });
+    }
+    std::iter::once(PatternEdit::MovePoints { points }).chain(grainlines).collect()
+}
+
+pub fn finishing() -> Stage {
+    let mut project = Sample::Coat.project(&mannequin::default());
+    project.document.settings.edge_length = MESH;
+    let pattern = Arc::make_mut(&mut project.document.pattern);
+    let buttons: Vec<_> = std::mem::take(&mut pattern.buttons).into_values().collect();
+    let pattern = Arc::clone(&project.document.pattern);
+    let mut stage = Stage::new(project);
+    stage.give(edit(shortened(&stage, &pattern)));
+    stage.give(edit(vec![PatternEdit::AddButtons { buttons: buttons.clone() }]));
+    let edges = all_labelled(
+        &pattern,
+        &[
+            "front edge left",
+            "front edge right",
+            "stand left",
+            "stand right",
+            "centre left",
+            "centre right",
+            "collar edge left",
+            "collar edge right",
+        ],
+    );
+    let hems = all_labelled(&pattern, &["hem left", "hem right", "sleeve hem"]);
+    assert_eq!((edges.len(), hems.len()), (10, 8));
+    let colour = [248, 240, 222];
+    let topstitch = Topstitch { distance: 0.01, length: 0.006, rows: 2, spacing: 0.008, colour };
+    stage.give(edit(vec![PatternEdit::SetTopstitch { lines: edges, topstitch: Some(topstitch) }]));
+    let hem = Hem { width: 0.04, colour: Some(colour) };
+    stage.give(edit(vec![PatternEdit::SetHem { lines: hems, hem: Some(hem) }]));
+    stage.give(Command::Sew);
+    stage.rest();
+    let gaps = buttons.iter().map(|button| {
+        let [own, hole] = [button.button, button.hole].map(|end| stage.place((end.piece, end.at)));
+        own.distance(hole)
+    });
+    let gap = gaps.fold(0.0, f64::max);
+    println!("finishing: {} buttons, the widest gap {gap:.4} m", buttons.len());
+    assert!(buttons.len() > 3 && gap < 0.006, "{gap}");
+    stage
+}
+
+pub fn colourways() -> Stage {
+    let mut stage = Stage::new(Sample::Tshirt.project(&mannequin::default()));
+    stage.give(Command::SetFabric { piece: None, fabric: Some("jersey".to_owned()) });
+    stage.wrap_and_drape();
+    let sleeves = ["sleeve left", "sleeve right"].map(|name| stage.piece(name));
+    let coloured = |stage: &mut Stage, colour: [u8; 3], stripes: [u8; 3]| {
+        stage.give(Command::SetDye { piece: None, dye: Dye { colour: Some(colour), ..Dye::default() } });
+        let print = Some(Print { motif: Motif::Hoops, repeat_m: 0.03, colour: stripes });
+        for piece in sleeves {
+            stage.give(Command::SetDye { piece: Some(piece), dye: Dye { print, ..Dye::default() } });
+        }
+    };
+    coloured(&mut stage, [238, 231, 214], [176, 58, 52]);
+    let picture = include_bytes!("../../../../assets/install/icons/toile-256.png");
+    stage.give(Command::AddImage { file: Arc::new(ImageFile::new("toile.png", picture.to_vec())) });
+    let image = *stage.session.document().artwork.images.keys().next().expect("an image");
+    let (piece, at) = (stage.piece("front"), DVec2::new(0.0, -0.03));
+    let graphic = Graphic { piece, image, at, width_m: 0.17, angle: 0.0, on_twin: false };
+    stage.give(Command::AddGraphic { graphic });
+    stage.give(Command::KeepColourway { name: "Day".to_owned() });
+    let day = stage.session.document().dyes.clone();
+    coloured(&mut stage, [40, 52, 78], [222, 186, 96]);
+    stage.give(Command::KeepColourway { name: "Night".to_owned() });
+    assert!(stage.session.document().dyes != day);
+    stage.give(Command::WearColourway { name: "Day".to_owned() });
+    let document = stage.session.document();
+    assert!(document.dyes == day && document.colourways.len() == 2 && document.artwork.graphics.len() == 1);
+    stage
+}
+
+pub fn cutting() -> Stage {
+    let mut stage = Stage::new(Sample::Dress.project(&mannequin::default()));
+    stage.give(Command::SetFabric { piece: None, fabric: Some("satin".to_owned()) });
+    let print = Print { motif: Motif::Stripes, repeat_m: 0.045, colour: [46, 84, 112] };
+    let dye = Dye { colour: Some([232, 224, 206]), print: Some(print), ..Dye::default() };
+    stage.give(Command::SetDye { piece: None, dye });
+    stage.give(Command::Wrap);
+    stage.rest();
+    let pieces: Vec<_> = stage.session.document().pattern.pieces.keys().copied().collect();
+    let area = |stage: &Stage| {
+        let cut = |piece: &Arc<Piece>| polygon::signed_area(&allowance_line(piece, 1e-4)).abs();
+        stage.session.document().pattern.pieces.values().map(cut).sum::<f64>()
+    };
+    let small = area(&stage);
+    stage.give(edit(vec![PatternEdit::SetAllowance { pieces, width: 0.015 }]));
+    assert!(area(&stage) > 1.01 * small, "the cutting lines are farther out");
+    let skirts = ["skirt front", "skirt back"].map(|name| stage.piece(name));
+    let turned_up = skirts.iter().flat_map(|&piece| {
+        // The hem runs from point 0 to point 1.
+        [(0, Side::After), (1, Side::Before)].map(|(point, side)| PatternEdit::SetCorner {
+            point: PointRef { piece, point },
+            corner: AllowanceCorner::TurnedUp(side),
+        })
+    });
+    stage.give(edit(turned_up.collect()));
+    for [ours, theirs] in [["side lower right", "side lower left"], ["side lower left", "side lower right"]] {
+        let sides = [(skirts[0], ours), (skirts[1], theirs)];
+        let notches = sides
+            .map(|(piece, label)| PatternEdit::AddNotch { edge: labelled(&stage, piece, label)[0], at: 0.5 });
+        stage.give(edit(notches.to_vec()));
+    }
+    let (middle, along) = (DVec2::new(0.0, -0.294), DVec2::splat(0.127));
+    for piece in skirts {
+        let grainline = Some([middle - along, middle + along]);
+        stage.give(edit(vec![PatternEdit::SetGrainline { piece, grainline }]));
+    }
+    stage.give(Command::SetDraping { on: true });
+    stage.rest();
+    let grain = stage.session.document().pattern.pieces[&skirts[0]].grain();
+    assert!((grain.x - grain.y).abs() < 1e-9, "on the bias: {grain}");
     stage
 }
 
