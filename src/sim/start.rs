@@ -59,6 +59,9 @@ pub struct Tried {
     pub start: Start,
     /// Whether it was judged after draping.
     pub draped: bool,
+    /// Whether it was tried in a mesh a little finer than the garment's own, as the same starts had few faults before.
+    #[serde(skip_serializing_if = "std::ops::Not::not")]
+    pub finer: bool,
     /// Faults, in words.
     pub faults: Vec<Words>,
     /// Number of places with faults.
@@ -70,7 +73,8 @@ pub struct Tried {
 impl std::fmt::Display for Tried {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         let draped = if self.draped && self.start == Start::Marks { ", draped" } else { "" };
-        write!(f, "{}{draped}", self.start)
+        let finer = if self.finer { ", in a finer mesh" } else { "" };
+        write!(f, "{}{draped}{finer}", self.start)
     }
 }
 
