@@ -30,6 +30,15 @@ impl Around {
         Self { lower: self.lower.min(other.lower), upper: self.upper.max(other.upper) }
     }
 
+    /// This box grown on all sides by `margin`, metres.
+    pub fn grown(&self, margin: f32) -> Self {
+        Self { lower: self.lower - margin, upper: self.upper + margin }
+    }
+
+    pub fn contains(&self, other: &Self) -> bool {
+        (self.lower.cmple(other.lower) & self.upper.cmpge(other.upper)).all()
+    }
+
     pub fn meets(&self, other: &Self) -> bool {
         (self.lower.cmple(other.upper) & self.upper.cmpge(other.lower)).all()
     }
@@ -67,14 +76,11 @@ impl Broad {
         broad
     }
 
-    /// Builds the tree over `boxes`.
+    /// Builds the tree over `boxes`, unless it has as many.
     pub fn plant(&mut self, boxes: &[Aabb]) {
-        self.tree = Bvh::new(boxes);
-    }
-
-    /// Whether the tree is over `count` boxes.
-    pub fn is_over(&self, count: usize) -> bool {
-        self.tree.items.len() == count
+        if self.tree.items.len() != boxes.len() {
+            self.tree = Bvh::new(boxes);
+        }
     }
 
     /// The items in the order of the leaves.
@@ -103,14 +109,9 @@ impl Broad {
         }
     }
 
-    /// Every two items whose boxes meet and of which `is_pair` is true, and every item and item of `other` of which `is_pair_with` is, in
-    /// an order that depends only on the shapes of the trees.
-    pub fn pairs(
-        &self,
-        other: Option<&Self>,
-        is_pair: impl Fn(u32, u32) -> bool + Sync,
-        is_pair_with: impl Fn(u32, u32) -> bool + Sync,
-    ) -> Vec<Pairs> {
+    /// Every two items whose boxes meet, but those of which `passes_over` is true, and every item and item of `other`, in an order
+    /// that depends only on the shapes of the trees.
+    pub fn pairs(&self, other: Option<&Self>, passes_over: impl Fn(u32, u32) -> bool + Sync) -> Vec<Pairs> {
         let count = self.nodes.len();
         let share = |share: usize| {
             let (mut found, mut open) = (Pairs::new(), Vec::new());
@@ -118,15 +119,13 @@ impl Broad {
                 let node = node as u32;
                 self.pairs_below(node, &mut open, |one, two| {
                     let items = [one, two].map(|at| self.tree.items[at as usize]);
-                    if is_pair(items[0], items[1]) {
+                    if !passes_over(items[0], items[1]) {
                         found.push(Meeting { one, two, is_of_other: false });
                     }
                 });
                 if let (Some(other), true) = (other, self.tree.nodes[node as usize].is_leaf()) {
                     self.pairs_with(node, other, |one, two| {
-                        if is_pair_with(self.tree.items[one as usize], other.tree.items[two as usize]) {
-                            found.push(Meeting { one, two, is_of_other: true });
-                        }
+                        found.push(Meeting { one, two, is_of_other: true })
                     });
                 }
             }

@@ -27,7 +27,7 @@ use rayon::prelude::*;
 use serde::Serialize;
 
 use crate::contact::separation::beside::{Beside, Group};
-use crate::contact::separation::candidates::{Candidates, Moving};
+use crate::contact::separation::candidates::Candidates;
 use crate::contact::separation::crossing::Crossings;
 use crate::contact::separation::features::Seen;
 pub use crate::contact::separation::repulsion::Touch;
@@ -206,9 +206,11 @@ impl Separation {
         triangles
             .map(|t| PlacedTriangle::new(&self.cloth, &self.anchors, &self.reach, t))
             .collect_into_vec(&mut self.placed);
-        let Self { anchors: x, reach, placed, thickness, beside, obstacle, candidates, .. } = self;
-        let cloth = Moving { x, reach, placed, thickness: *thickness };
-        candidates.fit(cloth, obstacle.as_deref(), |s, t| beside.are(s, t));
+        let box_of = |placed: &PlacedTriangle| grown(&placed.around, placed.farthest + self.thickness / 2.0);
+        let boxes: Vec<Aabb> = self.placed.par_iter().with_min_len(LEAST_SHARE).map(box_of).collect();
+        let obstacle = self.obstacle.as_deref().map(|obstacle| &obstacle.broad);
+        let (placed, beside) = (&self.placed, &self.beside);
+        self.candidates.fit(&boxes, |t| placed[t].farthest, obstacle, |s, t| beside.are(s, t));
         let crossings = if self.is_clean { Crossings::default() } else { Crossings::found(self, is_inside) };
         self.beside.see(&self.placed);
         let found = self.gathered(&crossings);
@@ -232,7 +234,11 @@ impl Separation {
         look: impl Fn(u32, u32, &mut T) + Sync,
         look_at_obstacle: impl Fn(u32, u32, &mut T) + Sync,
     ) -> Vec<T> {
-        self.candidates.search(self.obstacle.as_deref(), look, look_at_obstacle)
+        self.candidates.search(
+            self.obstacle.as_deref().map(|obstacle| &obstacle.broad),
+            look,
+            look_at_obstacle,
+        )
     }
 
     fn gathered(&self, crossings: &Crossings) -> Vec<Found> {

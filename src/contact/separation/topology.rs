@@ -98,16 +98,6 @@ impl PlacedTriangle {
         heights.iter().all(|height| *height > far) || heights.iter().all(|height| *height < -far)
     }
 
-    /// Whether `other` is known to be farther away than `far` metres: along the line of their middles or the normal of either.
-    pub fn is_apart(&self, other: &Self, far: f64) -> bool {
-        let middle = |corners: &[DVec3; 3]| corners[0] + corners[1] + corners[2];
-        let way = (middle(&other.corners) - middle(&self.corners)).normalize_or_zero();
-        let [top, bottom] = [&self.corners, &other.corners].map(|corners| corners.map(|p| way.dot(p)));
-        let gap = bottom.into_iter().fold(f64::INFINITY, f64::min)
-            - top.into_iter().fold(f64::NEG_INFINITY, f64::max);
-        gap > far * (1.0 + SLACK) + SLACK || self.is_off(other, far) || other.is_off(self, far)
-    }
-
     /// The vertices of side `k`.
     pub fn ends(&self, k: usize) -> [u32; 2] {
         [self.vertices[k], self.vertices[(k + 1) % 3]]
