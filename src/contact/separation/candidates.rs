@@ -107,7 +107,9 @@ mod tests {
         let other = Broad::over(&still);
         let mut kept = Candidates::default();
         let mut fresh = Candidates::default();
-        [&mut kept, &mut fresh].map(|candidates| candidates.wide.plant(&moving));
+        for candidates in [&mut kept, &mut fresh] {
+            candidates.wide.plant(&moving);
+        }
         let count =
             |found: &[(bool, u32, u32)]| found.iter().filter(|(is_of_other, ..)| *is_of_other).count();
         for step in 0..40 {
