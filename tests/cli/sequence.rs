@@ -42,7 +42,7 @@ fn cloth_goes_along_through_a_folder_of_frames() {
         let (after, there) = (vertices(&text), turned(i));
         let turn = |n: [f32; 3]| there(DVec3::from_array(n.map(f64::from))) - there(DVec3::ZERO);
         let [dressed, posed] = [&place.read("out/garment.obj"), &text].map(|text| normals(text));
-        assert!(dressed.len() > 100 && dressed.len() == posed.len(), "frame {i}: {}", posed.len());
+        assert!(dressed.len() > 50 && dressed.len() == posed.len(), "frame {i}: {}", posed.len());
         let apart = |(&n, &q): (&[f32; 3], &[f32; 3])| turn(n).distance(DVec3::from_array(q.map(f64::from)));
         let apart = dressed.iter().zip(&posed).map(apart).fold(0.0, f64::max);
         assert!(apart < 0.05, "frame {i}: normals turn along, {apart}");
