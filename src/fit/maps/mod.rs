@@ -54,17 +54,19 @@ pub struct Worn<'a> {
     pub offset: f64,
 }
 
-/// Computes several maps of the same cloth. The nearest points of the skin, which several kinds need, are found once.
+/// Computes several maps of the same cloth. What several kinds need is computed once: nearest points of the skin and how triangles are
+/// deformed.
 #[derive(Debug)]
 pub struct MapReader<'a> {
     worn: Worn<'a>,
     skin: OnceCell<Vec<Option<Nearest>>>,
+    images: OnceCell<Vec<Option<strain::Images>>>,
 }
 
 impl<'a> MapReader<'a> {
     /// A reader that has computed nothing yet.
     pub fn new(worn: Worn<'a>) -> Self {
-        Self { worn, skin: OnceCell::new() }
+        Self { worn, skin: OnceCell::new(), images: OnceCell::new() }
     }
 
     /// The map of `kind`. Same input, same bits, on any number of threads.
@@ -72,7 +74,8 @@ impl<'a> MapReader<'a> {
         let worn = self.worn;
         match kind {
             MapKind::Warp | MapKind::Weft | MapKind::Shear | MapKind::Area => {
-                Map::of_triangles(kind, worn, strain::strain(kind, worn))
+                let images = self.images.get_or_init(|| strain::all_images(worn));
+                Map::of_triangles(kind, worn, strain::strain(kind, images))
             }
             MapKind::Ease => Map::of_vertices(kind, worn, ease(self.skin())),
             MapKind::Curvature => Map::of_vertices(kind, worn, curvature::largest_angle(worn)),

@@ -13,25 +13,31 @@ const FLAT: f64 = 1e-9;
 /// Edges shorter than this (metres) have no strain.
 const SHORTEST: f64 = 1e-9;
 
-/// Strain of each triangle: warp, weft, shear or area. With F the deformation gradient from the flat plane to space, and w and f
-/// unit vectors along and across the grain, these are |F w| - 1, |F f| - 1, a right angle minus the angle between F w and F f,
-/// and |F w x F f| - 1.
-pub(super) fn strain(kind: MapKind, worn: Worn<'_>) -> Vec<f64> {
+/// Images of the unit vectors along and across the grain under the deformation gradient of a triangle.
+pub(super) type Images = [DVec3; 2];
+
+/// Strain of each triangle with these `images`: warp, weft, shear or area. With F the deformation gradient from the flat plane to
+/// space, and w and f unit vectors along and across the grain, these are |F w| - 1, |F f| - 1, a right angle minus the angle between
+/// F w and F f, and |F w x F f| - 1.
+pub(super) fn strain(kind: MapKind, images: &[Option<Images>]) -> Vec<f64> {
+    let strain = |[warp, weft]: Images| match kind {
+        MapKind::Warp => warp.length() - 1.0,
+        MapKind::Weft => weft.length() - 1.0,
+        MapKind::Shear => warp.dot(weft).atan2(warp.cross(weft).length()),
+        _ => warp.cross(weft).length() - 1.0,
+    };
+    let each = images.par_iter().with_min_len(LEAST_SHARE);
+    each.map(|images| images.map_or(f64::NAN, strain)).collect()
+}
+
+/// The images of each triangle; None where it is not laid or has no flat area.
+pub(super) fn all_images(worn: Worn<'_>) -> Vec<Option<Images>> {
     let grain = grain(worn);
-    (0..worn.garment.triangles.len())
-        .into_par_iter()
-        .with_min_len(LEAST_SHARE)
-        .map(|t| {
-            let along = grain.get(&worn.garment.triangle_pieces[t]).copied().unwrap_or(DVec2::Y);
-            let images = laid_corners(worn, t).and_then(|corners| images(worn, t, corners, along));
-            images.map_or(f64::NAN, |[warp, weft]| match kind {
-                MapKind::Warp => warp.length() - 1.0,
-                MapKind::Weft => weft.length() - 1.0,
-                MapKind::Shear => warp.dot(weft).atan2(warp.cross(weft).length()),
-                _ => warp.cross(weft).length() - 1.0,
-            })
-        })
-        .collect()
+    let of_triangle = |t: usize| {
+        let along = grain.get(&worn.garment.triangle_pieces[t]).copied().unwrap_or(DVec2::Y);
+        laid_corners(worn, t).and_then(|corners| images(worn, t, corners, along))
+    };
+    (0..worn.garment.triangles.len()).into_par_iter().with_min_len(LEAST_SHARE).map(of_triangle).collect()
 }
 
 /// Warp direction of each piece in its plane, unit vector.
@@ -39,8 +45,8 @@ pub(super) fn grain(worn: Worn<'_>) -> BTreeMap<PieceId, DVec2> {
     worn.pattern.pieces.iter().map(|(&id, piece)| (id, piece.grain())).collect()
 }
 
-/// Images of the unit vectors along and across the grain under the deformation gradient.
-fn images(worn: Worn<'_>, t: usize, [a, b, c]: [DVec3; 3], along: DVec2) -> Option<[DVec3; 2]> {
+/// The images of triangle `t` with these corners; `along` is the direction of the grain in its flat plane.
+fn images(worn: Worn<'_>, t: usize, [a, b, c]: [DVec3; 3], along: DVec2) -> Option<Images> {
     let (_, slopes) = flat(worn, t, along)?;
     Some(slopes.map(|slope| (b - a) * slope.y + (c - a) * slope.z))
 }
