@@ -288,21 +288,11 @@ impl World {
         if trials.refining.is_some() && self.mends_refined(trials, &faults, places) {
             return None;
         }
-        if let Some(mut started) = trials.refining.take() {
-            let taken = &mut started.tried[started.taken];
-            let Some((draped, its_faults, its_places)) = trials.draped_fine.take() else {
-                (taken.faults, taken.places, taken.ticks) = (faults, places, taken.ticks + trials.ticks);
-                return Some(Self { started: Some(Arc::new(started)), ..self.clone() });
-            };
-            (taken.faults, taken.places) = (its_faults, its_places);
-            let (start, finer, ticks) = (taken.start, taken.finer, trials.ticks);
-            let is_better = faults.is_empty();
-            started.tried.push(Tried { start, draped: false, finer, faults, places, ticks });
-            if is_better {
-                started.taken = started.tried.len() - 1;
-                return Some(Self { started: Some(Arc::new(started)), ..self.clone() });
-            }
-            return Some(Self { started: Some(Arc::new(started)), ..Arc::unwrap_or_clone(draped) });
+        if let Some(started) = trials.refining.take() {
+            let ended = self.ended(trials, started, (faults, places));
+            let Some(next) = Self::after_faulty(trials, &ended) else { return Some(ended) };
+            *self = Self { relaxing: self.relaxing, ..next };
+            return None;
         }
         let lies = self.cloth.mapped.contains(&true) && self.not_finite().is_none();
         let drapes_next = trials.now == Start::Marks && !trials.draping && lies && !is_astray;
@@ -333,6 +323,39 @@ impl World {
             return None;
         }
         Some(Self { started: Some(Arc::new(started)), ..world })
+    }
+
+    /// The cloth in the garment's own mesh that is taken: this, which has these faults in so many places, or what it was before it was
+    /// relaxed once more.
+    fn ended(
+        &self,
+        trials: &mut Trials,
+        mut started: Started,
+        (faults, places): (Vec<Words>, usize),
+    ) -> Self {
+        let taken = &mut started.tried[started.taken];
+        let Some((draped, its_faults, its_places)) = trials.draped_fine.take() else {
+            (taken.faults, taken.places, taken.ticks) = (faults, places, taken.ticks + trials.ticks);
+            return Self { started: Some(Arc::new(started)), ..self.clone() };
+        };
+        (taken.faults, taken.places) = (its_faults, its_places);
+        let (start, finer, ticks) = (taken.start, taken.finer, trials.ticks);
+        let is_better = faults.is_empty();
+        started.tried.push(Tried { start, draped: false, finer, faults, places, ticks });
+        if is_better {
+            started.taken = started.tried.len() - 1;
+            return Self { started: Some(Arc::new(started)), ..self.clone() };
+        }
+        Self { started: Some(Arc::new(started)), ..Arc::unwrap_or_clone(draped) }
+    }
+
+    /// The next start where `ended`, in the garment's own mesh, has faults in a few places; None where it is to be taken.
+    fn after_faulty(trials: &mut Trials, ended: &Self) -> Option<Self> {
+        let started = ended.started.as_ref().filter(|s| (1..=FEW).contains(&s.taken().places))?;
+        trials.tried.clone_from(&started.tried);
+        trials.best = Some((Arc::new(Self { started: None, ..ended.clone() }), started.taken));
+        (trials.refinement, trials.coarse) = (Refinement::First, None);
+        Self::next_start(trials)
     }
 
     /// Goes on with draped cloth that had `faults` in the garment's own mesh. False when there is nothing more to try.
@@ -477,6 +500,28 @@ mod tests {
         let started = world.started.expect("told");
         assert_eq!((started.taken, &started.taken().faults[..]), (0, &[Words::plain("it fell off")][..]));
         assert!(world.was_draped && started.tried.len() == 2);
+    }
+
+    #[test]
+    fn other_starts_follow_where_a_few_places_have_faults_in_the_garments_own_mesh() {
+        let (_, mut trials) = faulty();
+        let ended = |places: usize| {
+            let (faults, ticks) = (vec![Words::plain("it crosses itself")], 9);
+            let tried = Tried { start: Start::Marks, draped: true, finer: false, faults, places, ticks };
+            World { started: Some(Arc::new(Started { tried: vec![tried], taken: 0 })), ..World::default() }
+        };
+        trials.left.clear();
+        assert!(World::after_faulty(&mut trials, &ended(FEW + 1)).is_none());
+        let own = trials.source.edge_length;
+        assert!(World::after_faulty(&mut trials, &ended(FEW)).is_some());
+        assert!(trials.finer && trials.source.edge_length == own * FINER && trials.tried.len() == 1);
+        trials.left.clear();
+        assert!(World::after_faulty(&mut trials, &ended(1)).is_none(), "once is enough");
+        trials.finer = false;
+        assert!(
+            World::after_faulty(&mut trials, &ended(0)).is_none(),
+            "a fault without a place is no chance"
+        );
     }
 
     #[test]
