@@ -6,6 +6,7 @@ use rayon::prelude::*;
 use crate::body::Surface;
 use crate::cloth::{Counters, Garment, Skip, Skips};
 use crate::contact::Tracker;
+use crate::geometry::parallel::LEAST_SHARE;
 
 /// A bone as a segment between two ends, metres.
 pub type Bone = [DVec3; 2];
@@ -63,7 +64,7 @@ impl Bones {
             let at = |e: &[u32; 2]| [e.map(|v| before[v as usize]), e.map(|v| after[v as usize])];
             let tests: Vec<(u32, DVec3)> = (0..edges.len() as u32)
                 .into_par_iter()
-                .with_min_len(512)
+                .with_min_len(LEAST_SHARE)
                 .filter(|&e| edges[e as usize].iter().all(|&v| mapped[v as usize]))
                 .filter(|&e| self.may_cross(edges[e as usize], at(&edges[e as usize]), tracker))
                 .map(|e| (e, self.crossed(at(&edges[e as usize]))))

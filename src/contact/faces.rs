@@ -8,6 +8,7 @@ use crate::body::Surface;
 use crate::cloth::refine::Refined;
 use crate::cloth::{ClothState, Counters, Garment, Skip, Skips};
 use crate::contact::BodyOverlaps;
+use crate::geometry::parallel::LEAST_SHARE;
 
 /// Depth, in clearances, down to which a face is found in the body; its corners are above the skin.
 const LOOK_INTO: f64 = 5.0;
@@ -191,7 +192,7 @@ impl Faces {
             self.known.resize(garment.triangles.len(), NOTHING);
         } else {
             let seen = &self.seen;
-            self.known.par_iter_mut().enumerate().with_min_len(256).for_each(|(t, known)| {
+            self.known.par_iter_mut().enumerate().with_min_len(LEAST_SHARE).for_each(|(t, known)| {
                 let Some(now) = lying.corners(t) else {
                     *known = NOTHING;
                     return;

@@ -15,6 +15,7 @@ use crate::body::Surface;
 use crate::cloth::refine::{DependentVertex, Refined, refine};
 use crate::cloth::{ClothState, Counters, Garment, Skip, Skips};
 use crate::contact::Tracker;
+use crate::geometry::parallel::LEAST_SHARE;
 
 /// Number of consecutive checks in which a split edge must be clear of the body before it is joined again.
 const CLEAR_LOOKS: u8 = 10;
@@ -123,7 +124,9 @@ impl Splits {
         };
         let tests: Vec<(u32, bool)> = match suspects {
             Some(suspects) => suspects.edges.par_iter().filter_map(|&e| test(e)).collect(),
-            None => (0..edges.len() as u32).into_par_iter().with_min_len(1024).filter_map(test).collect(),
+            None => {
+                (0..edges.len() as u32).into_par_iter().with_min_len(LEAST_SHARE).filter_map(test).collect()
+            }
         };
         counters.edge_checks += suspects.map_or(edges.len(), |s| s.edges.len()) as u64;
         counters.edge_tests += tests.len() as u64;

@@ -6,13 +6,12 @@ use rayon::prelude::*;
 use crate::cloth::{ClothState, Garment};
 use crate::contact::Tracker;
 use crate::geometry::adjacency::Lists;
+use crate::geometry::parallel::LEAST_SHARE;
 use crate::relax::Rotation;
 use crate::relax::goals::{turned_rest, turned_rest_facing};
 
 /// Cosine between the normals of a triangle and of the cloth round it below which the triangle is turned over.
 const FLIPPED: f64 = -0.2;
-/// Least number of triangles for a parallel task.
-const LEAST_SHARE: usize = 256;
 
 /// Pulls of all triangles of a garment. Recomputed in every step, except `corners`.
 #[derive(Clone, Debug)]

@@ -11,6 +11,7 @@ use crate::contact::faces::Lying;
 use crate::contact::splits::{Ground, Suspects};
 use crate::contact::{BodyOverlaps, Bones, Faces, Intersections, Plane, Splits, Tracker};
 use crate::geometry::crossings::meetings;
+use crate::geometry::parallel::LEAST_SHARE;
 use crate::relax::acceleration::Acceleration;
 use crate::relax::flatten::{Hinges, Lies, NOT_LAID};
 use crate::relax::global::{GlobalSolver, STALE_SHARE};
@@ -33,8 +34,6 @@ const USUAL_FRICTION: f64 = 0.3;
 /// Largest ratio of the area of all cloth to that of touching cloth that the cling can hold: where less touches, the
 /// garment falls.
 const MOST_HELD: f64 = 50.0;
-/// Least number of vertices for a parallel task.
-const LEAST_SHARE: usize = 512;
 /// Fraction of the offset that a vertex keeps above its track plane in every step.
 const LEAST_HEIGHT: f64 = 0.5;
 /// Distance from the skin within which cloth is tested for being on the wrong side, metres on a body 1.5 m large.

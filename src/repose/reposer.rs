@@ -8,6 +8,7 @@ use rayon::prelude::*;
 use crate::body::Surface;
 use crate::cloth::{ClothState, Counters, Garment};
 use crate::contact::{BodyOverlaps, Intersections};
+use crate::geometry::parallel::LEAST_SEARCHES;
 use crate::geometry::rebuild::Rebuild;
 use crate::relax::{Acceleration, GlobalStep, RelaxSettings, Relaxer, global};
 use crate::repose::distance_map::DistanceMap;
@@ -33,8 +34,6 @@ const FACE_CLEARANCE: f64 = 0.25;
 const VERTEX_CLEARANCE: f64 = 0.25;
 /// Most attempts to move a vertex out of the body at the end: after a move, other skin may be the nearest.
 const SENDS: usize = 4;
-/// Vertices that one thread takes at a time.
-const LEAST_SHARE: usize = 128;
 
 /// A dressed garment bound to its body.
 #[derive(Clone, Debug)]
@@ -237,7 +236,7 @@ impl Reposer {
             .par_iter_mut()
             .zip(mapped.par_iter())
             .enumerate()
-            .with_min_len(LEAST_SHARE)
+            .with_min_len(LEAST_SEARCHES)
             .filter_map(|x| sent(x).then_some(()))
             .count()
     }

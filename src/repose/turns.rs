@@ -9,9 +9,8 @@ use glam::{DMat3, DQuat, DVec2, DVec3};
 use rayon::prelude::*;
 
 use crate::body::Surface;
+use crate::geometry::parallel::LEAST_SHARE;
 
-/// Vertices that one thread takes at a time.
-const LEAST_SHARE: usize = 256;
 /// A triangle whose height is less than this share of its first side counts as degenerate and has no rotation.
 const COLLAPSED: f64 = 1e-9;
 

@@ -15,14 +15,12 @@ use rayon::prelude::*;
 
 use crate::cloth::fabric::Bending as Stiffness;
 use crate::drape::sheet::Sheet;
+use crate::geometry::parallel::LEAST_SUMS;
 
 /// Largest coefficient of a second derivative, times the squared size of the triangle: a fit beyond this amplifies noise.
 const MOST_GAIN: f64 = 20.0;
 /// Smallest pivot of a fit as a share of the largest entry: below it the points do not determine a quadratic.
 const LEAST_PIVOT: f64 = 1e-6;
-
-/// Matrix rows that one thread takes at a time.
-const LEAST_SHARE: usize = 1024;
 
 /// Bending energy as a sparse symmetric matrix Q, N/m: xᵀQx/2 in each axis.
 #[derive(Clone, Debug)]
@@ -147,7 +145,7 @@ impl Bending {
 
     /// Writes the gradient, N, of each vertex times its `factor`.
     pub fn write_forces(&self, x: &[DVec3], forces: &mut [DVec3], factor: impl Fn(usize) -> f64 + Sync) {
-        let rows = forces.par_iter_mut().enumerate().with_min_len(LEAST_SHARE);
+        let rows = forces.par_iter_mut().enumerate().with_min_len(LEAST_SUMS);
         rows.for_each(|(i, force)| *force = self.row_times(i, x) * factor(i));
     }
 

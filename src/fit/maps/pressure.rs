@@ -7,7 +7,8 @@ use crate::body::Nearest;
 use crate::cloth::fabric::{green, stress, wrinkled};
 use crate::fit::maps::curvature::corner;
 use crate::fit::maps::strain::{flat, grain};
-use crate::fit::maps::{LEAST_SHARE, Worn, laid_corners, per_vertex};
+use crate::fit::maps::{Worn, laid_corners, per_vertex};
+use crate::geometry::parallel::LEAST_SHARE;
 
 /// Distance from the skin, in offsets of a wrap, up to which cloth counts as touching it.
 const LIES: f64 = 1.25;
