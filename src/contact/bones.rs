@@ -150,20 +150,19 @@ fn meet([a, b]: [DVec3; 2], [c, d]: Bone) -> bool {
 mod tests {
     use super::*;
 
-    const BONE: Bone = [DVec3::new(0.0, -1.0, 0.0), DVec3::new(0.0, 1.0, 0.0)];
-
     fn moved(from: f64, to: f64, y: f64) -> [[DVec3; 2]; 2] {
         [from, to].map(|z| [DVec3::new(-0.2, y, z), DVec3::new(0.3, y + 0.1, z)])
     }
 
     #[test]
     fn an_edge_that_passes_a_bone_is_seen() {
-        assert!(crossing(moved(0.1, -0.1, 0.0), BONE).is_some_and(|n| (n.z.abs() - 1.0).abs() < 0.05));
-        assert!(crossing(moved(0.1, 0.01, 0.0), BONE).is_none(), "not there yet");
-        assert!(crossing(moved(0.1, -0.1, 1.2), BONE).is_none(), "beyond its end");
+        let bone = [DVec3::NEG_Y, DVec3::Y];
+        assert!(crossing(moved(0.1, -0.1, 0.0), bone).is_some_and(|n| (n.z.abs() - 1.0).abs() < 0.05));
+        assert!(crossing(moved(0.1, 0.01, 0.0), bone).is_none(), "not there yet");
+        assert!(crossing(moved(0.1, -0.1, 1.2), bone).is_none(), "beyond its end");
         let beside = moved(0.1, -0.1, 0.0).map(|e| e.map(|p| p + DVec3::X));
-        assert!(crossing(beside, BONE).is_none(), "beside it");
+        assert!(crossing(beside, bone).is_none(), "beside it");
         let parallel = [0.1, -0.1].map(|z| [DVec3::new(0.0, -0.1, z), DVec3::new(0.0, 0.1, z)]);
-        assert!(crossing(parallel, BONE).is_none(), "along it: its neighbours are seen");
+        assert!(crossing(parallel, bone).is_none(), "along it: its neighbours are seen");
     }
 }
