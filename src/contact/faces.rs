@@ -10,6 +10,8 @@ use crate::cloth::{ClothState, Counters, Garment, Skip, Skips};
 use crate::contact::BodyOverlaps;
 use crate::geometry::parallel::LEAST_SHARE;
 
+/// Share of the offset that the interiors of faces and edges must keep from the skin where the vertices keep all of it.
+pub const FACE_CLEARANCE: f64 = 0.25;
 /// Depth, in clearances, down to which a face is found in the body; its corners are above the skin.
 const LOOK_INTO: f64 = 5.0;
 /// Distance from the skin within which faces are tested for being on the wrong side, metres on a body 1.5 m large.

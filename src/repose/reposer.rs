@@ -7,9 +7,11 @@ use rayon::prelude::*;
 
 use crate::body::Surface;
 use crate::cloth::{ClothState, Counters, Garment};
+use crate::contact::faces::FACE_CLEARANCE;
 use crate::contact::{BodyOverlaps, Intersections};
 use crate::geometry::parallel::LEAST_SEARCHES;
 use crate::geometry::rebuild::Rebuild;
+use crate::relax::step::{HEAVY_CONTACT, STEP_CAP};
 use crate::relax::{Acceleration, GlobalStep, RelaxSettings, Relaxer, global};
 use crate::repose::distance_map::DistanceMap;
 use crate::repose::excess::Lengths;
@@ -18,18 +20,12 @@ use crate::repose::pose_path::between;
 use crate::repose::settings::{Outcome, ReposeSettings};
 use crate::repose::transfer::Transfer;
 
-/// Largest displacement of a vertex in one global step, metres, on a body whose largest side is 1.5 m.
-const STEP_CAP: f64 = 0.02;
-/// Weight of the contact constraints in the global steps.
-const CONTACT: f64 = 0.1;
 /// Acceleration of global steps in the same contacts. (Chebyshev's semi-iteration would amplify cloth that intersects itself.)
 const PACES: [Acceleration; 3] = Acceleration::longer(1.7);
 /// For a preview the matrix factor may be out of date for this share of the vertices.
 const LIVE_STALE_SHARE: f64 = 0.05;
 /// Global steps between two separations of intersecting layers.
 const STEPS_PER_PARTING: usize = 4;
-/// Clearance of edges and faces from the body, as a share of the offset.
-const FACE_CLEARANCE: f64 = 0.25;
 /// Smallest clearance of vertices from the body, as a share of the offset.
 const VERTEX_CLEARANCE: f64 = 0.25;
 /// Most attempts to move a vertex out of the body at the end: after a move, other skin may be the nearest.
@@ -200,7 +196,7 @@ impl Reposer {
     pub(super) fn step(&mut self, state: &mut ClothState, care: ReposeSettings, done: usize) {
         let step = GlobalStep {
             cap: STEP_CAP * self.relaxer.surface.scale(),
-            contact: CONTACT,
+            contact: HEAVY_CONTACT,
             hold: 0.0,
             slack: 0.0,
             unfold: care.mends > 0,

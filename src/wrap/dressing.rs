@@ -7,15 +7,17 @@ use glam::DVec3;
 
 use crate::body::Surface;
 use crate::cloth::{Carry, ClothState, Counters, EdgeMetric, Garment, Skip};
+use crate::contact::faces::FACE_CLEARANCE;
 use crate::geometry::ids::PieceId;
 use crate::geometry::words::words;
 use crate::pattern::{Problem, ProblemKind};
+use crate::relax::step::STEP_CAP;
 use crate::relax::{GlobalStep, RelaxSettings, Relaxer};
 use crate::wrap::Marks;
 use crate::wrap::growth::{Growth, placed};
 use crate::wrap::limbs::Limbs;
 use crate::wrap::order::{Order, UNREACHED};
-use crate::wrap::plan::{LIGHT_CONTACT, PLANS, Plan};
+use crate::wrap::plan::{PLAIN, PLANS, Plan};
 use crate::wrap::roots::{PairStretch, Root, roots};
 use crate::wrap::settling::{SETTLE_STEPS, Settling};
 
@@ -27,8 +29,6 @@ const RINGS: usize = 2;
 const GLOBALS_PER_GROUP: usize = 3;
 /// Number of global steps between two tiers of growth.
 const TIER_STEPS: usize = 15;
-/// Largest move of a vertex in one global step, metres on a body 1.5 m large.
-const STEP_CAP: f64 = 0.02;
 /// Weight of contact while the cloth grows and closes: heavy, so that closing seams do not pull it through a limb.
 const GROW_CONTACT: f64 = 0.3;
 /// Weight by which marks hold their vertices while the cloth grows.
@@ -49,11 +49,6 @@ const HOLD_FADE: [f64; 3] = [1.0, 0.3, 0.1];
 const HOLD_FADE_STEPS: usize = 4;
 /// Number of settling steps between two separations of intersecting layers.
 const STEPS_PER_PARTING: usize = 10;
-/// Fraction of the progress that counts for the coarser meshes.
-const COARSE_PROGRESS: f64 = 0.8;
-/// Fraction of the offset that edges and faces must keep from the skin.
-const FACE_CLEARANCE: f64 = 0.25;
-
 /// Number of triangles per fault below which a wrap has failed; fewer faults are repaired on finer meshes.
 const TRIANGLES_PER_FAULT: usize = 150;
 
@@ -267,7 +262,7 @@ impl Dressing {
             coarse: None,
             plan: (!roots.is_empty() && dressed.is_none()).then_some(0),
             roots,
-            contact: LIGHT_CONTACT,
+            contact: PLAIN.contact,
             best: None,
             stretches,
         };
@@ -307,7 +302,7 @@ impl Dressing {
     /// Progress over growing and settling, 0..=1.
     pub fn progress(&self) -> f64 {
         if let Some(coarse) = &self.coarse {
-            return COARSE_PROGRESS * coarse.dressing.progress();
+            return 0.8 * coarse.dressing.progress();
         }
         let grown = self.mapped as f64 / self.to_map.max(1) as f64;
         match self.stage {
@@ -359,7 +354,7 @@ impl Dressing {
             coarse: None,
             roots: Vec::new(),
             plan: None,
-            contact: LIGHT_CONTACT,
+            contact: PLAIN.contact,
             best: None,
             stretches: Vec::new(),
         }

@@ -5,7 +5,7 @@ use glam::DVec3;
 use rayon::prelude::*;
 
 use crate::contact::separation::features;
-use crate::contact::separation::topology::{PlacedTriangle, Topology};
+use crate::contact::separation::topology::{PlacedTriangle, SLACK, Topology};
 use crate::geometry::parallel::LEAST_SUMS;
 
 /// Cost of measuring a group anew, in costs of looking at one. Groups are measured when as much was spent on looks in vain.
@@ -14,8 +14,6 @@ const MEASURE: u64 = 4;
 const MOST_PATIENCE: u64 = 64;
 /// Share of the groups that must be passed over after measuring, for measuring to have helped.
 const HELPED: f64 = 0.5;
-/// Rounding errors of distances, metres.
-const SLACK: f64 = 1e-9;
 
 /// Pairs of features of two neighbouring triangles: corners of the first against the second, or sides of both.
 #[derive(Clone, Debug)]

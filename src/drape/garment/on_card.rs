@@ -20,8 +20,6 @@ pub const LEAST_TRIANGLES: usize = 8000;
 const MOST_WORK: usize = 12_000_000;
 /// Ticks for which the processor drapes after the card could not.
 const PAUSE: u32 = 12;
-/// Distance from the body, in offsets, within which a vertex counts as near it.
-const NEAR: f64 = 2.0;
 
 /// A garment on a card.
 #[derive(Clone, Debug)]
@@ -132,10 +130,10 @@ impl DrapedGarment {
                 .map(|(v, x)| self.small.height(v, *x).is_some())
                 .collect();
         }
-        // The processor's look-ups are old by now.
+        // The processor's look-ups are old by now. As for those, twice the offset is near.
         let lifts = self.small.lift();
         let is_near =
-            |(x, lift): (&DVec3, &f64)| collider.surface.nearest_within(*x, NEAR * (offset + lift)).is_some();
+            |(x, lift): (&DVec3, &f64)| collider.surface.nearest_within(*x, 2.0 * (offset + lift)).is_some();
         self.state.positions.par_iter().zip(lifts).with_min_len(LEAST_SEARCHES).map(is_near).collect()
     }
 }
