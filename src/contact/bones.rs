@@ -15,8 +15,6 @@ pub type Bone = [DVec3; 2];
 const DEPTHS: u32 = 32;
 /// Number of intervals of a step in each of which an edge is taken to pass a bone at most once.
 const MOMENTS: u32 = 4;
-/// Number of bisections that find the time of a crossing.
-const HALVINGS: u32 = 30;
 
 /// The bones of a body.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -125,7 +123,8 @@ fn crossing([before, after]: [[DVec3; 2]; 2], bone: Bone) -> Option<DVec3> {
         if first == (volume(late) > 0.0) {
             return None;
         }
-        for _ in 0..HALVINGS {
+        // To a billionth of the interval.
+        for _ in 0..30 {
             let middle = (early + late) / 2.0;
             if (volume(middle) > 0.0) == first { early = middle } else { late = middle }
         }

@@ -31,8 +31,8 @@ const SAMPLES: [[f64; 3]; 7] = [
     [1.0 / 6.0, 1.0 / 6.0, 2.0 / 3.0],
 ];
 
-/// Results of the last tests of a face. Negative values: to be tested again.
-#[derive(Clone, Copy, Debug)]
+/// Results of the last tests of a face. Values that are not positive: to be tested again.
+#[derive(Clone, Copy, Debug, Default)]
 struct Known {
     /// The face keeps its clearance while no corner moves farther than this, metres.
     clear: f32,
@@ -41,8 +41,6 @@ struct Known {
     /// Change of the unit normal below which the face is not on the wrong side, see `right`.
     turn: f32,
 }
-
-const NOTHING: Known = Known { clear: -1.0, right: -1.0, turn: -1.0 };
 
 /// Results for all faces of a garment.
 #[derive(Clone, Debug, Default)]
@@ -95,7 +93,7 @@ impl Faces {
         counters: &mut Counters,
     ) -> Vec<f64> {
         if self.clearance != clearance {
-            self.known.iter_mut().for_each(|known| known.clear = -1.0);
+            self.known.iter_mut().for_each(|known| known.clear = 0.0);
             self.clearance = clearance;
         }
         self.age(lying);
@@ -191,12 +189,12 @@ impl Faces {
         let (garment, positions) = (lying.garment, &lying.state.positions);
         if self.seen.len() != positions.len() || !lying.skips.allow(Skip::Faces) {
             self.known.clear();
-            self.known.resize(garment.triangles.len(), NOTHING);
+            self.known.resize(garment.triangles.len(), Known::default());
         } else {
             let seen = &self.seen;
             self.known.par_iter_mut().enumerate().with_min_len(LEAST_SHARE).for_each(|(t, known)| {
                 let Some(now) = lying.corners(t) else {
-                    *known = NOTHING;
+                    *known = Known::default();
                     return;
                 };
                 let before = garment.triangles[t].map(|v| seen[v as usize]);

@@ -1,5 +1,5 @@
-//! How much work a parallel task gets at least. It decides only how items are shared out, never what is computed of each nor in which
-//! order results are put together, so that it cannot change them.
+//! How much work a parallel task gets at least. It decides only how items are shared out, never what is computed of each nor in
+//! which order results are put together, so that it cannot change them.
 
 /// Items (vertices, triangles, nodes of a tree) for a task: less is not worth being handed to another thread.
 pub const LEAST_SHARE: usize = 256;

@@ -26,8 +26,6 @@ const PACES: [Acceleration; 3] = Acceleration::longer(1.7);
 const LIVE_STALE_SHARE: f64 = 0.05;
 /// Global steps between two separations of intersecting layers.
 const STEPS_PER_PARTING: usize = 4;
-/// Smallest clearance of vertices from the body, as a share of the offset.
-const VERTEX_CLEARANCE: f64 = 0.25;
 /// Most attempts to move a vertex out of the body at the end: after a move, other skin may be the nearest.
 const SENDS: usize = 4;
 
@@ -185,7 +183,8 @@ impl Reposer {
             let height = plane.height(state.positions[v]);
             if height < 0.0 {
                 inside += 1;
-                let wanted = heights[v].clamp(VERTEX_CLEARANCE * offset, 2.0 * offset);
+                // Not lower than the faces round it may be.
+                let wanted = heights[v].clamp(FACE_CLEARANCE * offset, 2.0 * offset);
                 state.positions[v] = plane.point + plane.normal * wanted;
             }
         }
@@ -212,7 +211,7 @@ impl Reposer {
     /// overlapping parts of a body there is no way out.
     pub(super) fn send_out(&self, state: &mut ClothState) -> usize {
         let surface = &self.relaxer.surface;
-        let least = VERTEX_CLEARANCE * self.relaxer.offset();
+        let least = FACE_CLEARANCE * self.relaxer.offset();
         let sent = |(v, (p, &mapped)): (usize, (&mut DVec3, &bool))| {
             let left_out = |t: u32| self.apart.as_ref().is_some_and(|apart| apart.leaves_out(v, t));
             let near = |p: DVec3| surface.nearest_within_but(p, f64::INFINITY, left_out);

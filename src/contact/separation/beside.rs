@@ -12,8 +12,6 @@ use crate::geometry::parallel::LEAST_SUMS;
 const MEASURE: u64 = 4;
 /// Largest factor on that, where measuring did not help.
 const MOST_PATIENCE: u64 = 64;
-/// Share of the groups that must be passed over after measuring, for measuring to have helped.
-const HELPED: f64 = 0.5;
 
 /// Pairs of features of two neighbouring triangles: corners of the first against the second, or sides of both.
 #[derive(Clone, Debug)]
@@ -141,7 +139,8 @@ impl Beside {
         if self.in_vain < MEASURE * self.patience.max(1) * all || all == 0 {
             return;
         }
-        let has_helped = self.patience == 0 || (first as f64) < (1.0 - HELPED) * all as f64;
+        // Measuring helps where more than half of the groups are passed over after it.
+        let has_helped = self.patience == 0 || 2 * first < all;
         self.patience = if has_helped { 1 } else { (2 * self.patience).min(MOST_PATIENCE) };
         (self.first, self.in_vain) = (None, 0);
         self.measured_at.clear();
