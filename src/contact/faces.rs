@@ -8,6 +8,7 @@ use crate::body::Surface;
 use crate::cloth::refine::Refined;
 use crate::cloth::{ClothState, Counters, Garment, Skip, Skips};
 use crate::contact::BodyOverlaps;
+use crate::contact::tracker::AHEAD;
 use crate::geometry::parallel::LEAST_SHARE;
 
 /// Share of the offset that the interiors of faces and edges must keep from the skin where the vertices keep all of it.
@@ -18,8 +19,6 @@ const LOOK_INTO: f64 = 5.0;
 const WRONG_REACH: f64 = 0.02;
 /// Cosine between the normals of face and skin below which the face is on the wrong side.
 const WRONG: f64 = -0.15;
-/// Extra distance over which faces are tested, so that results stay valid for a while; metres on a body 1.5 m large.
-const AHEAD: f64 = 0.002;
 /// Sample points of a face, in barycentric coordinates.
 const SAMPLES: [[f64; 3]; 7] = [
     [0.5, 0.5, 0.0],

@@ -31,9 +31,6 @@ const GRAZING: f64 = 0.1;
 const HAND_WEIGHT: f64 = 1.0;
 /// Weight of contact while dragging: light, so that strained cloth slides.
 const CONTACT: f64 = 0.01;
-/// Fraction of vertices whose contact may change before the matrix is factored again: while cloth slides, contacts
-/// come and go all the time.
-const STALE_SHARE: f64 = 0.05;
 /// Acceleration of the global steps of a relaxation: error components that a plain step reduces by less than a fifth
 /// are too slow to be seen.
 const PACES: [Acceleration; 3] = Acceleration::chebyshev(0.2);
@@ -124,7 +121,7 @@ impl Dragging {
         relaxer.hold(hand, state.positions[hand as usize]);
         relaxer.fix(pins.iter().copied().chain(fixed_hand));
         relaxer.track(state, FOLLOWS * relaxer.surface.scale());
-        relaxer.refactor_beyond(STALE_SHARE);
+        relaxer.refactor_beyond(global::LIVE_STALE_SHARE);
         relaxer.splitting = true;
         relaxer.counters.drag_vertices += graph.len() as u64;
         let edge_length = relaxer.garment.mean_edge();

@@ -22,8 +22,6 @@ use crate::repose::transfer::Transfer;
 
 /// Acceleration of global steps in the same contacts. (Chebyshev's semi-iteration would amplify cloth that intersects itself.)
 const PACES: [Acceleration; 3] = Acceleration::longer(1.7);
-/// For a preview the matrix factor may be out of date for this share of the vertices.
-const LIVE_STALE_SHARE: f64 = 0.05;
 /// Global steps between two separations of intersecting layers.
 const STEPS_PER_PARTING: usize = 4;
 /// Most attempts to move a vertex out of the body at the end: after a move, other skin may be the nearest.
@@ -110,7 +108,8 @@ impl Reposer {
 
     /// Sets how often the matrix is factored again, as `care` requires.
     pub(super) fn refactor(&mut self, care: ReposeSettings) {
-        self.relaxer.refactor_beyond(if care.mends == 0 { LIVE_STALE_SHARE } else { global::STALE_SHARE });
+        let is_live = care.mends == 0;
+        self.relaxer.refactor_beyond(if is_live { global::LIVE_STALE_SHARE } else { global::STALE_SHARE });
     }
 
     /// Joins the triangles that followed their own skin, see [`Transfer::join`].

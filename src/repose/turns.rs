@@ -11,9 +11,6 @@ use rayon::prelude::*;
 use crate::body::Surface;
 use crate::geometry::parallel::LEAST_SHARE;
 
-/// A triangle whose height is less than this share of its first side counts as degenerate and has no rotation.
-const COLLAPSED: f64 = 1e-9;
-
 /// Rotation at each of `vertices`; None where neither the vertex nor its triangles have moved.
 pub(super) fn turns(from: &Surface, to: &Surface, vertices: &[u32]) -> Vec<Option<DQuat>> {
     let (before, after) = (&from.mesh.positions, &to.mesh.positions);
@@ -75,7 +72,8 @@ fn framed([a, b, c]: [DVec3; 3]) -> Option<(DMat3, [DVec2; 2])> {
     let (u, v) = (b - a, c - a);
     let (length, normal) = (u.length(), u.cross(v));
     let size = normal.length();
-    if size <= COLLAPSED * length * length || length == 0.0 {
+    // Without a height it has no rotation.
+    if size <= 1e-9 * length * length || length == 0.0 {
         return None;
     }
     let (x, z) = (u / length, normal / size);

@@ -25,8 +25,8 @@ struct Limits {
 
 /// For the mesh that is asked for.
 const FINE: Limits = Limits { steps: 400, mends: 12 };
-/// For a coarse mesh, which only has to be roughly in place.
-const DRAFT: Limits = Limits { steps: 160, mends: 2 };
+/// For a coarse mesh, which only has to be roughly in place: as long with gravity as without.
+const DRAFT: Limits = Limits { steps: 2 * SETTLE_STEPS, mends: 2 };
 
 /// State of settling.
 #[derive(Clone, Copy, Debug)]
