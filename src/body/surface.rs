@@ -11,12 +11,10 @@ use rayon::prelude::*;
 use crate::body::closest::{ClosestTree, Part, pseudonormal};
 use crate::geometry::adjacency::{Adjacency, NONE};
 use crate::geometry::mesh::TriMesh;
+use crate::geometry::parallel::LEAST_SUMS;
 
 /// Distance by which a ray that slipped between triangles is shifted and cast again, metres on a body 1.5 m large.
 const RAY_ASIDE: f64 = 1e-5;
-
-/// Least number of vertices for a parallel task that computes normals.
-const LEAST_SHARE: usize = 1024;
 
 /// The point of a surface nearest to a query point, with the signed distance.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -94,7 +92,7 @@ impl Surface {
         let origin = (lower + upper) / 2.0;
         let face_normals: Vec<DVec3> = (0..mesh.triangles.len())
             .into_par_iter()
-            .with_min_len(LEAST_SHARE)
+            .with_min_len(LEAST_SUMS)
             .map(|t| {
                 let [a, b, c] = mesh.corners(t);
                 (b - a).cross(c - a).normalize_or_zero()
@@ -364,7 +362,7 @@ fn angle_weighted_normals(mesh: &TriMesh, adjacency: &Adjacency, face_normals: &
     };
     (0..mesh.positions.len() as u32)
         .into_par_iter()
-        .with_min_len(LEAST_SHARE)
+        .with_min_len(LEAST_SUMS)
         .map(|v| {
             let around = adjacency.vertex_triangles.of(v).iter();
             around.fold(DVec3::ZERO, |sum, &t| sum + weighted(v, t)).normalize_or_zero()

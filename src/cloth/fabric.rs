@@ -7,6 +7,8 @@ use serde::{Deserialize, Serialize};
 
 use crate::cloth::look::FabricLook;
 
+/// Gravity, m/s².
+pub const GRAVITY: DVec3 = DVec3::new(0.0, -9.81, 0.0);
 /// The presets as JSON, each with the source of its figures.
 const PRESETS: &str = include_str!("../../assets/fabrics/presets.json");
 

@@ -21,7 +21,7 @@ pub use build::{build, build_again};
 pub use carry::Carry;
 pub use counters::Counters;
 pub use distance::{EdgeMetric, Reached};
-pub use fabric::Fabric;
+pub use fabric::{Fabric, GRAVITY};
 pub use garment::{ClothState, Corner, Garment};
 pub use locate::{FlatPiece, FlatPlace};
 pub use look::{FabricLook, Weave};

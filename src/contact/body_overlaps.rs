@@ -5,6 +5,7 @@ use std::cmp::Reverse;
 use std::collections::BinaryHeap;
 
 use crate::body::Surface;
+use crate::geometry::adjacency::NONE;
 use crate::geometry::crossings::self_crossings;
 
 /// Distance along the skin from a self-intersection within which the intersecting parts exclude each other, metres on
@@ -13,13 +14,13 @@ const REACH: f64 = 0.15;
 /// Distance along the skin within which intersections belong to one part, metres on a body 1.5 m large. A fold whose
 /// two sides are so near intersects only itself, and excludes nothing.
 const ONE_PART: f64 = 0.06;
-/// Marks vertices and triangles that are not near a self-intersection.
-const NO_PART: u32 = u32::MAX;
 
 /// Which skin each cloth vertex ignores in contact.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct BodyOverlaps {
+    /// The part that each vertex of the cloth belongs to; [`NONE`] away from self-intersections.
     of_vertex: Vec<u32>,
+    /// The part that each triangle of the body is of; [`NONE`] away from self-intersections.
     of_triangle: Vec<u32>,
     /// For each two parts whether they intersect; a square matrix, row by row.
     cross: Vec<bool>,
@@ -49,7 +50,7 @@ impl BodyOverlaps {
             let [p, q] = [a, b].map(|v| nearest[v as usize]);
             let length = mesh.positions[a as usize].distance(mesh.positions[b as usize]);
             let between = far[a as usize] + length + far[b as usize];
-            if p != NO_PART && q != NO_PART && between < ONE_PART * surface.scale() {
+            if p != NONE && q != NONE && between < ONE_PART * surface.scale() {
                 sets.join(p, q);
             }
         }
@@ -57,8 +58,8 @@ impl BodyOverlaps {
         roots.sort_unstable();
         roots.dedup();
         let mut part = |v: u32| match nearest[v as usize] {
-            NO_PART => NO_PART,
-            seed => roots.binary_search(&sets.root(seed)).map_or(NO_PART, |at| at as u32),
+            NONE => NONE,
+            seed => roots.binary_search(&sets.root(seed)).map_or(NONE, |at| at as u32),
         };
         let parts = roots.len();
         let mut cross = vec![false; parts * parts];
@@ -72,15 +73,14 @@ impl BodyOverlaps {
             return None;
         }
         let of_triangle: Vec<u32> = mesh.triangles.iter().map(|corners| part(corners[0])).collect();
-        let of_vertex =
-            bound.iter().map(|bound| bound.map_or(NO_PART, |t| of_triangle[t as usize])).collect();
+        let of_vertex = bound.iter().map(|bound| bound.map_or(NONE, |t| of_triangle[t as usize])).collect();
         Some(Self { of_vertex, of_triangle, cross, parts })
     }
 
     /// Whether cloth vertex `vertex` ignores `triangle` of the body.
     pub fn leaves_out(&self, vertex: usize, triangle: u32) -> bool {
         let [p, q] = [self.of_vertex[vertex], self.of_triangle[triangle as usize]];
-        p != NO_PART && q != NO_PART && self.cross[p as usize * self.parts + q as usize]
+        p != NONE && q != NONE && self.cross[p as usize * self.parts + q as usize]
     }
 }
 
@@ -88,7 +88,7 @@ impl BodyOverlaps {
 fn grown(surface: &Surface, seeds: &[u32]) -> (Vec<u32>, Vec<f64>) {
     let positions = &surface.mesh.positions;
     let reach = REACH * surface.scale();
-    let (mut nearest, mut far) = (vec![NO_PART; positions.len()], vec![f64::INFINITY; positions.len()]);
+    let (mut nearest, mut far) = (vec![NONE; positions.len()], vec![f64::INFINITY; positions.len()]);
     // Distances are not negative, so that their bits sort as they do.
     let mut open: BinaryHeap<Reverse<(u64, u32)>> = BinaryHeap::new();
     for &v in seeds {

@@ -6,6 +6,7 @@ use rayon::prelude::*;
 use crate::body::Surface;
 use crate::cloth::{Counters, Garment, Skip, Skips};
 use crate::contact::Tracker;
+use crate::geometry::parallel::LEAST_SHARE;
 
 /// A bone as a segment between two ends, metres.
 pub type Bone = [DVec3; 2];
@@ -14,8 +15,6 @@ pub type Bone = [DVec3; 2];
 const DEPTHS: u32 = 32;
 /// Number of intervals of a step in each of which an edge is taken to pass a bone at most once.
 const MOMENTS: u32 = 4;
-/// Number of bisections that find the time of a crossing.
-const HALVINGS: u32 = 30;
 
 /// The bones of a body.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -63,7 +62,7 @@ impl Bones {
             let at = |e: &[u32; 2]| [e.map(|v| before[v as usize]), e.map(|v| after[v as usize])];
             let tests: Vec<(u32, DVec3)> = (0..edges.len() as u32)
                 .into_par_iter()
-                .with_min_len(512)
+                .with_min_len(LEAST_SHARE)
                 .filter(|&e| edges[e as usize].iter().all(|&v| mapped[v as usize]))
                 .filter(|&e| self.may_cross(edges[e as usize], at(&edges[e as usize]), tracker))
                 .map(|e| (e, self.crossed(at(&edges[e as usize]))))
@@ -124,7 +123,8 @@ fn crossing([before, after]: [[DVec3; 2]; 2], bone: Bone) -> Option<DVec3> {
         if first == (volume(late) > 0.0) {
             return None;
         }
-        for _ in 0..HALVINGS {
+        // To a billionth of the interval.
+        for _ in 0..30 {
             let middle = (early + late) / 2.0;
             if (volume(middle) > 0.0) == first { early = middle } else { late = middle }
         }
@@ -149,20 +149,19 @@ fn meet([a, b]: [DVec3; 2], [c, d]: Bone) -> bool {
 mod tests {
     use super::*;
 
-    const BONE: Bone = [DVec3::new(0.0, -1.0, 0.0), DVec3::new(0.0, 1.0, 0.0)];
-
     fn moved(from: f64, to: f64, y: f64) -> [[DVec3; 2]; 2] {
         [from, to].map(|z| [DVec3::new(-0.2, y, z), DVec3::new(0.3, y + 0.1, z)])
     }
 
     #[test]
     fn an_edge_that_passes_a_bone_is_seen() {
-        assert!(crossing(moved(0.1, -0.1, 0.0), BONE).is_some_and(|n| (n.z.abs() - 1.0).abs() < 0.05));
-        assert!(crossing(moved(0.1, 0.01, 0.0), BONE).is_none(), "not there yet");
-        assert!(crossing(moved(0.1, -0.1, 1.2), BONE).is_none(), "beyond its end");
+        let bone = [DVec3::NEG_Y, DVec3::Y];
+        assert!(crossing(moved(0.1, -0.1, 0.0), bone).is_some_and(|n| (n.z.abs() - 1.0).abs() < 0.05));
+        assert!(crossing(moved(0.1, 0.01, 0.0), bone).is_none(), "not there yet");
+        assert!(crossing(moved(0.1, -0.1, 1.2), bone).is_none(), "beyond its end");
         let beside = moved(0.1, -0.1, 0.0).map(|e| e.map(|p| p + DVec3::X));
-        assert!(crossing(beside, BONE).is_none(), "beside it");
+        assert!(crossing(beside, bone).is_none(), "beside it");
         let parallel = [0.1, -0.1].map(|z| [DVec3::new(0.0, -0.1, z), DVec3::new(0.0, 0.1, z)]);
-        assert!(crossing(parallel, BONE).is_none(), "along it: its neighbours are seen");
+        assert!(crossing(parallel, bone).is_none(), "along it: its neighbours are seen");
     }
 }

@@ -8,15 +8,17 @@ use crate::body::Surface;
 use crate::cloth::refine::Refined;
 use crate::cloth::{ClothState, Counters, Garment, Skip, Skips};
 use crate::contact::BodyOverlaps;
+use crate::contact::tracker::AHEAD;
+use crate::geometry::parallel::LEAST_SHARE;
 
+/// Share of the offset that the interiors of faces and edges must keep from the skin where the vertices keep all of it.
+pub const FACE_CLEARANCE: f64 = 0.25;
 /// Depth, in clearances, down to which a face is found in the body; its corners are above the skin.
 const LOOK_INTO: f64 = 5.0;
 /// Distance from the skin within which faces are tested for being on the wrong side, metres on a body 1.5 m large.
 const WRONG_REACH: f64 = 0.02;
 /// Cosine between the normals of face and skin below which the face is on the wrong side.
 const WRONG: f64 = -0.15;
-/// Extra distance over which faces are tested, so that results stay valid for a while; metres on a body 1.5 m large.
-const AHEAD: f64 = 0.002;
 /// Sample points of a face, in barycentric coordinates.
 const SAMPLES: [[f64; 3]; 7] = [
     [0.5, 0.5, 0.0],
@@ -28,8 +30,8 @@ const SAMPLES: [[f64; 3]; 7] = [
     [1.0 / 6.0, 1.0 / 6.0, 2.0 / 3.0],
 ];
 
-/// Results of the last tests of a face. Negative values: to be tested again.
-#[derive(Clone, Copy, Debug)]
+/// Results of the last tests of a face. Values that are not positive: to be tested again.
+#[derive(Clone, Copy, Debug, Default)]
 struct Known {
     /// The face keeps its clearance while no corner moves farther than this, metres.
     clear: f32,
@@ -38,8 +40,6 @@ struct Known {
     /// Change of the unit normal below which the face is not on the wrong side, see `right`.
     turn: f32,
 }
-
-const NOTHING: Known = Known { clear: -1.0, right: -1.0, turn: -1.0 };
 
 /// Results for all faces of a garment.
 #[derive(Clone, Debug, Default)]
@@ -92,7 +92,7 @@ impl Faces {
         counters: &mut Counters,
     ) -> Vec<f64> {
         if self.clearance != clearance {
-            self.known.iter_mut().for_each(|known| known.clear = -1.0);
+            self.known.iter_mut().for_each(|known| known.clear = 0.0);
             self.clearance = clearance;
         }
         self.age(lying);
@@ -188,12 +188,12 @@ impl Faces {
         let (garment, positions) = (lying.garment, &lying.state.positions);
         if self.seen.len() != positions.len() || !lying.skips.allow(Skip::Faces) {
             self.known.clear();
-            self.known.resize(garment.triangles.len(), NOTHING);
+            self.known.resize(garment.triangles.len(), Known::default());
         } else {
             let seen = &self.seen;
-            self.known.par_iter_mut().enumerate().with_min_len(256).for_each(|(t, known)| {
+            self.known.par_iter_mut().enumerate().with_min_len(LEAST_SHARE).for_each(|(t, known)| {
                 let Some(now) = lying.corners(t) else {
-                    *known = NOTHING;
+                    *known = Known::default();
                     return;
                 };
                 let before = garment.triangles[t].map(|v| seen[v as usize]);

@@ -20,9 +20,6 @@ const ASKED: usize = 15;
 /// Tolerance of the winding number beyond its possible range.
 const CERTAIN: f64 = 0.03;
 
-/// Winding number above which a point is inside.
-const WITHIN: f64 = 0.5;
-
 /// For each vertex 1 where its part of the cloth is inside other cloth, -1 where it has come out through other cloth,
 /// 0 where all is well, or nothing is known. `mesh` holds the placed triangles of `garment`; `crossed` tells for each
 /// edge of the garment whether it intersects other cloth of it.
@@ -85,7 +82,7 @@ fn under(garment: &Garment, mesh: &TriMesh, crossed: &[bool], part: &[u32], deep
         let mut asked = vec![false; part.len()];
         while let Some(v) = open.pop_front() {
             if !std::mem::replace(&mut asked[v as usize], true)
-                && winding.at(mesh.positions[v as usize]) > WITHIN
+                && winding.contains(mesh.positions[v as usize])
             {
                 deep[v as usize] = -1;
                 open.extend(garment.adjacency.vertex_neighbours.of(v).iter().filter(|&&w| over(w)));

@@ -15,13 +15,13 @@ use crate::body::Surface;
 use crate::cloth::refine::{DependentVertex, Refined, refine};
 use crate::cloth::{ClothState, Counters, Garment, Skip, Skips};
 use crate::contact::Tracker;
+use crate::contact::faces::FACE_CLEARANCE;
+use crate::geometry::parallel::LEAST_SHARE;
 
 /// Number of consecutive checks in which a split edge must be clear of the body before it is joined again.
 const CLEAR_LOOKS: u8 = 10;
 /// Factor on the length of a split edge in the check whether it is clear of the body.
 const LONGER: f64 = 1.2;
-/// Height above the skin below which an edge counts as near, as a fraction of the offset.
-const CLEAR: f64 = 0.25;
 /// Number of intervals of an edge between whose ends its height is checked.
 const POINTS: u32 = 8;
 /// Most steps in which an inserted vertex is moved out of the body.
@@ -123,7 +123,9 @@ impl Splits {
         };
         let tests: Vec<(u32, bool)> = match suspects {
             Some(suspects) => suspects.edges.par_iter().filter_map(|&e| test(e)).collect(),
-            None => (0..edges.len() as u32).into_par_iter().with_min_len(1024).filter_map(test).collect(),
+            None => {
+                (0..edges.len() as u32).into_par_iter().with_min_len(LEAST_SHARE).filter_map(test).collect()
+            }
         };
         counters.edge_checks += suspects.map_or(edges.len(), |s| s.edges.len()) as u64;
         counters.edge_tests += tests.len() as u64;
@@ -237,7 +239,7 @@ impl Edge {
         heights <= length
             && (1..POINTS).any(|k| {
                 let p = a.lerp(b, f64::from(k) / f64::from(POINTS));
-                let low = CLEAR * ground.offset;
+                let low = FACE_CLEARANCE * ground.offset;
                 let near = ground.surface.nearest_within(p, length);
                 near.is_some_and(|n| n.distance < low)
             })

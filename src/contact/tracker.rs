@@ -24,9 +24,9 @@ const SIGHT: f64 = 0.03;
 const SLOW: f64 = 0.0005;
 /// Margin well above rounding errors, metres on a body 1.5 m large.
 const CERTAIN: f64 = 1e-6;
-/// Extra distance beyond the nearest point within which the next nearest part is searched for, for the gap of a slow
-/// vertex; metres on a body 1.5 m large.
-const MOST_GAP: f64 = 0.004;
+/// Motion over which what is found of the body is meant to stay valid: it is searched that much farther. Metres on a body 1.5 m
+/// large.
+pub(super) const AHEAD: f64 = 0.002;
 
 /// The tangent plane of the body near a vertex.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -273,8 +273,10 @@ impl<'a> Ask<'a> {
             *track = Track::Clear { at: p, distance: far };
             return Effort::Query;
         };
+        // A vertex comes nearer to the next nearest part by what it goes away from the nearest.
+        let most_gap = 2.0 * AHEAD * self.scale;
         let gap = match slow && allow(Skip::Triangles) {
-            true => self.surface.gap_round(p, n.triangle, n.distance.abs(), MOST_GAP * self.scale),
+            true => self.surface.gap_round(p, n.triangle, n.distance.abs(), most_gap),
             false => 0.0,
         };
         *track = found(p, n, ((gap / 2.0) as f32).next_down(), n.triangle);

@@ -10,6 +10,7 @@ use serde::{Deserialize, Serialize};
 use crate::cloth::{ClothState, Counters, EdgeMetric, Garment};
 use crate::drag::Graph;
 use crate::drag::transport::motions;
+use crate::relax::step::STEP_CAP;
 use crate::relax::{Acceleration, GlobalStep, RelaxSettings, Relaxer, global};
 
 /// Largest move of a vertex in a substep, in edge lengths (ALGORITHMS.md 1.A5).
@@ -30,14 +31,9 @@ const GRAZING: f64 = 0.1;
 const HAND_WEIGHT: f64 = 1.0;
 /// Weight of contact while dragging: light, so that strained cloth slides.
 const CONTACT: f64 = 0.01;
-/// Fraction of vertices whose contact may change before the matrix is factored again: while cloth slides, contacts
-/// come and go all the time.
-const STALE_SHARE: f64 = 0.05;
 /// Acceleration of the global steps of a relaxation: error components that a plain step reduces by less than a fifth
 /// are too slow to be seen.
 const PACES: [Acceleration; 3] = Acceleration::chebyshev(0.2);
-/// Largest move of a vertex in one relaxation, metres on a body 1.5 m large.
-const RELAX_CAP: f64 = 0.02;
 /// Distance from the pointer at which the hand has arrived, in edge lengths.
 const ARRIVED: f64 = 1e-3;
 /// Largest move in a tick, in edge lengths, below which the tick counts as quiet; see [`QUIET_TICKS`].
@@ -125,7 +121,7 @@ impl Dragging {
         relaxer.hold(hand, state.positions[hand as usize]);
         relaxer.fix(pins.iter().copied().chain(fixed_hand));
         relaxer.track(state, FOLLOWS * relaxer.surface.scale());
-        relaxer.refactor_beyond(STALE_SHARE);
+        relaxer.refactor_beyond(global::LIVE_STALE_SHARE);
         relaxer.splitting = true;
         relaxer.counters.drag_vertices += graph.len() as u64;
         let edge_length = relaxer.garment.mean_edge();
@@ -318,7 +314,7 @@ impl Dragging {
     }
 
     fn relax(&mut self, state: &mut ClothState) -> f64 {
-        let cap = RELAX_CAP * self.relaxer.surface.scale();
+        let cap = STEP_CAP * self.relaxer.surface.scale();
         let step =
             GlobalStep { cap, contact: CONTACT, hold: HAND_WEIGHT, slack: 0.0, unfold: true, weight: true };
         // In the other modes relaxation determines how far the rest of the cloth follows: one plain step, as in the paper.

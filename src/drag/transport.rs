@@ -4,14 +4,12 @@ use glam::{DMat3, DVec3};
 use rayon::prelude::*;
 
 use crate::drag::Graph;
+use crate::geometry::parallel::LEAST_SHARE;
 
 /// Smallest tangential fraction of an edge's length; an edge nearer to the normal gives no frame.
 const UPRIGHT: f64 = 1e-4;
 /// Ratio of the mean of transported motions to their mean length below which they cancel each other.
 const CANCELLED: f64 = 0.2;
-
-/// Least number of links for a parallel task.
-const LEAST_SHARE: usize = 512;
 
 /// The motion of every vertex of `graph` when the hand moves by `hand`; zero elsewhere. Pins do not weaken it here,
 /// because their fractions would multiply along the graph. `normals` are unit, one per vertex.

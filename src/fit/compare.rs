@@ -8,6 +8,7 @@ use crate::cloth::{FlatPiece, FlatPlace, Garment};
 use crate::fit::maps::{Map, Worn};
 use crate::fit::shape::quantile;
 use crate::geometry::ids::PieceId;
+use crate::geometry::parallel::LEAST_SEARCHES;
 use crate::geometry::words::{Words, within_quotes, words};
 use crate::pattern::Pattern;
 
@@ -53,7 +54,7 @@ impl Matching {
         for (of_first, of_second) in pairs {
             let piece = FlatPiece::new(first.garment, of_first);
             let [to, from] = [(first, of_first), (second, of_second)].map(|(w, id)| bounds(w.pattern, id));
-            let corners = second.garment.corners.par_iter().zip(&mut places).with_min_len(64);
+            let corners = second.garment.corners.par_iter().zip(&mut places).with_min_len(LEAST_SEARCHES);
             corners.filter(|(corner, _)| corner.piece == of_second).for_each(|(corner, place)| {
                 let p = carried(corner.uv, from, to);
                 *place = piece.nearest(first.garment, p).map(onto);

@@ -12,6 +12,7 @@ use crate::fit::openings::{Opening, openings};
 use crate::fit::shape::quantile;
 use crate::geometry::bvh::Bvh;
 use crate::geometry::crossings::meetings;
+use crate::geometry::parallel::{LEAST_SEARCHES, LEAST_SHARE};
 use crate::geometry::winding::Winding;
 
 /// Distance from the skin within which cloth must have its inner side towards it, metres.
@@ -141,7 +142,7 @@ fn distances(laid: &Laid, body: &BodyIndex<'_>) -> (Vec<f64>, Vec<bool>) {
     let signed: Vec<f64> = laid
         .used
         .par_iter()
-        .with_min_len(256)
+        .with_min_len(LEAST_SHARE)
         .map(|&v| {
             let p = laid.mesh.positions[v as usize];
             let distance = body.distance(p);
@@ -189,7 +190,7 @@ fn cut_faces(
 fn penetration(laid: &Laid, body: &BodyIndex<'_>, distances: &[f64], cut: &[u32]) -> Penetration {
     let depths: Vec<f64> = cut
         .par_iter()
-        .with_min_len(64)
+        .with_min_len(LEAST_SEARCHES)
         .filter_map(|&t| face_depth(laid.mesh.corners(t as usize), body))
         .collect();
     let vertex_depth = distances.first().map_or(0.0, |&d| (-d).max(0.0));
@@ -260,7 +261,7 @@ fn is_between(laid: &Laid, body: &BodyIndex<'_>, t: usize) -> bool {
 pub(super) fn wrong_side_out(laid: &Laid, body: &BodyIndex<'_>) -> Vec<Option<bool>> {
     (0..laid.mesh.triangles.len())
         .into_par_iter()
-        .with_min_len(256)
+        .with_min_len(LEAST_SHARE)
         .map(|t| {
             let [a, b, c] = laid.mesh.corners(t);
             let normal = (b - a).cross(c - a).normalize_or_zero();

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-/// Marks a missing neighbour in [`Adjacency::across`].
+/// Marks a missing neighbour in [`Adjacency::across`], and no number at all in other lists of numbers.
 pub const NONE: u32 = u32::MAX;
 
 /// Lists of varying length, one per owner (an index), stored in one array (compressed sparse rows).

@@ -5,6 +5,7 @@ use rayon::prelude::*;
 
 use crate::geometry::bvh::{Aabb, Bvh};
 use crate::geometry::mesh::TriMesh;
+use crate::geometry::parallel::LEAST_SHARE;
 
 /// Determinant (cubic metres) up to which a segment counts as parallel to a triangle and does not meet it.
 const PARALLEL: f64 = 1e-18;
@@ -33,7 +34,7 @@ pub fn meetings(edge_positions: &[DVec3], edges: &[[u32; 2]], mesh: &TriMesh, tr
     edges
         .par_iter()
         .enumerate()
-        .with_min_len(256)
+        .with_min_len(LEAST_SHARE)
         .flat_map_iter(|(e, ends)| {
             let segment = ends.map(|v| edge_positions[v as usize]);
             let mut found = Vec::new();
@@ -55,7 +56,7 @@ pub fn meetings(edge_positions: &[DVec3], edges: &[[u32; 2]], mesh: &TriMesh, tr
 /// triangles.
 pub fn self_crossings(mesh: &TriMesh, edges: &[[u32; 2]], tree: &Bvh) -> Vec<[u32; 2]> {
     let boxes: Vec<Aabb> = (0..mesh.triangles.len()).map(|t| Aabb::around(&mesh.corners(t))).collect();
-    let nodes = (0..tree.nodes.len() as u32).into_par_iter().with_min_len(256);
+    let nodes = (0..tree.nodes.len() as u32).into_par_iter().with_min_len(LEAST_SHARE);
     let mut found: Vec<[u32; 2]> = nodes
         .flat_map_iter(|node| {
             let mut found = Vec::new();

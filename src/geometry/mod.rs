@@ -1,5 +1,6 @@
 //! Geometry that knows nothing of cloth: meshes, adjacency, spatial trees, sparse factors, walks, winding numbers; seeded random
-//! numbers; small solids that are only looked at; and words for a person that can be said in any language.
+//! numbers; how parallel work is shared out; small solids that are only looked at; and words for a person that can be said in any
+//! language.
 
 pub mod adjacency;
 pub mod barycentric;
@@ -11,6 +12,7 @@ pub mod factor;
 pub mod ids;
 pub mod mesh;
 pub mod orient;
+pub mod parallel;
 pub mod polygon;
 pub mod problem;
 pub mod random;

@@ -10,11 +10,10 @@ use rayon::prelude::*;
 use crate::geometry::adjacency::Adjacency;
 use crate::geometry::factor::{Factor, Symbolic};
 use crate::geometry::mesh::TriMesh;
+use crate::geometry::parallel::LEAST_SHARE;
 
 /// Bounds of half the cotangent of a corner: sliver triangles keep some weight, but do not dominate.
 const WEIGHTS: [f64; 2] = [0.02, 20.0];
-/// Least number of vertices for a parallel task.
-const LEAST_SHARE: usize = 512;
 
 /// Factor of the cotangent Laplacian of a mesh, scaled, plus a diagonal matrix.
 #[derive(Clone, Debug)]

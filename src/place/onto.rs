@@ -11,7 +11,7 @@ use crate::geometry::ids::PieceId;
 use crate::geometry::words::{Words, decimal, words};
 use crate::pattern::{CutPattern, EdgeRef, Pattern, SpacePose};
 use crate::place::limbs::{Part, limbs};
-use crate::wrap::{Stand, stand};
+use crate::wrap::{RUNS_ALONG, Stand, stand};
 
 /// Distance from where it belongs within which a garment is left, metres on a body 1.5 m large.
 const NEAR: f64 = 0.06;
@@ -29,8 +29,6 @@ const ALONG: f64 = 0.3;
 const FORWARD: f64 = 0.45;
 /// Distance from the middle beyond which pieces of an arm must be wholly, as a fraction of the trunk's half breadth.
 const BESIDE: f64 = 0.7;
-/// Cosine between a seam and its sleeve above which the seam runs along the sleeve.
-const RUNS_ALONG: f64 = 0.6;
 
 /// New placements of pieces, and messages about what was done.
 #[derive(Clone, Debug, Default, PartialEq)]

@@ -8,12 +8,11 @@ use rayon::prelude::*;
 
 use crate::cloth::Garment;
 use crate::geometry::adjacency::Lists;
+use crate::geometry::parallel::LEAST_SHARE;
 
 /// Cosines between the skin normals at a hinge and their mean. All above the second value: one surface; any below the
 /// first: two limbs, or the two sides of a fold; between them it is blended.
 const AGREE: [f64; 2] = [0.7, 0.9];
-/// Least number of hinges for a parallel task.
-const LEAST_SHARE: usize = 512;
 
 /// A hinge: an inner edge and its two opposite vertices, with the weights K.
 #[derive(Clone, Copy, Debug)]

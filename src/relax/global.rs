@@ -12,6 +12,8 @@ use crate::geometry::factor::{Factor, Symbolic};
 
 /// Default fraction of changed diagonal weights above which the matrix is factored again.
 pub const STALE_SHARE: f64 = 0.02;
+/// That fraction while cloth follows a hand or a body live: contacts come and go all the time.
+pub const LIVE_STALE_SHARE: f64 = 0.05;
 
 /// The factored matrix of a garment, over the triangles that are mapped.
 #[derive(Clone, Debug)]

@@ -9,8 +9,6 @@ use crate::relax::Rotation;
 
 /// Match of the best rotation, as a fraction of the possible, below which the rotation is undefined.
 const UNTURNED: f64 = 1e-3;
-/// Ratio of height to first side below which a triangle counts as collapsed.
-const COLLAPSED: f64 = 1e-6;
 
 /// Goals of a triangle's corners relative to their centroid: the rest shape `rest` (about its centroid, front up)
 /// rotated in the plane of `corners` to match them best. For collapsed corners `keep` gives the normal of the plane.
@@ -24,7 +22,8 @@ pub fn turned_rest(
     let (u, v) = (corners[1] - corners[0], corners[2] - corners[0]);
     let area = u.cross(v);
     let (length, size) = (u.length_squared(), area.length());
-    if size > COLLAPSED * length && length > 0.0 {
+    // With a height below a millionth of its first side it has collapsed.
+    if size > 1e-6 * length && length > 0.0 {
         let n = area * size.recip();
         if by == Rotation::LeastSquares {
             return turned_about(n, [u, v], rest);

@@ -6,13 +6,10 @@ use rayon::prelude::*;
 use crate::cloth::{ClothState, Garment};
 use crate::contact::Tracker;
 use crate::geometry::adjacency::Lists;
+use crate::geometry::parallel::LEAST_SHARE;
 use crate::relax::Rotation;
 use crate::relax::goals::{turned_rest, turned_rest_facing};
-
-/// Cosine between the normals of a triangle and of the cloth round it below which the triangle is turned over.
-const FLIPPED: f64 = -0.2;
-/// Least number of triangles for a parallel task.
-const LEAST_SHARE: usize = 256;
+use crate::relax::step::FOLDED;
 
 /// Pulls of all triangles of a garment. Recomputed in every step, except `corners`.
 #[derive(Clone, Debug)]
@@ -101,5 +98,5 @@ pub(super) fn body_normal(tracker: &Tracker, vs: &[u32; 3]) -> Option<DVec3> {
 fn faces_away(corners: [DVec3; 3], normal: DVec3) -> bool {
     let area = (corners[1] - corners[0]).cross(corners[2] - corners[0]);
     let along = area.dot(normal);
-    along < 0.0 && along * along > FLIPPED * FLIPPED * area.length_squared() * normal.length_squared()
+    along < 0.0 && along * along > FOLDED * FOLDED * area.length_squared() * normal.length_squared()
 }

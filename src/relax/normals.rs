@@ -4,16 +4,14 @@ use glam::DVec3;
 use rayon::prelude::*;
 
 use crate::cloth::{ClothState, Garment};
-
-/// Least number of vertices or triangles for a parallel task.
-const LEAST_SHARE: usize = 512;
+use crate::geometry::parallel::LEAST_SUMS;
 
 /// For each vertex its normal as from [`normal_round`].
 pub(super) fn vertex_normals(garment: &Garment, state: &ClothState) -> Vec<DVec3> {
-    let triangles = garment.triangles.par_iter().with_min_len(LEAST_SHARE);
+    let triangles = garment.triangles.par_iter().with_min_len(LEAST_SUMS);
     let areas: Vec<DVec3> = triangles.map(|vs| area(vs, state)).collect();
     let around = |v: u32| garment.adjacency.vertex_triangles.of(v).iter();
-    let vertices = (0..garment.vertex_count as u32).into_par_iter().with_min_len(LEAST_SHARE);
+    let vertices = (0..garment.vertex_count as u32).into_par_iter().with_min_len(LEAST_SUMS);
     vertices.map(|v| around(v).map(|&t| areas[t as usize]).sum::<DVec3>().normalize_or_zero()).collect()
 }
 

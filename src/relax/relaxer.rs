@@ -11,6 +11,7 @@ use crate::contact::faces::Lying;
 use crate::contact::splits::{Ground, Suspects};
 use crate::contact::{BodyOverlaps, Bones, Faces, Intersections, Plane, Splits, Tracker};
 use crate::geometry::crossings::meetings;
+use crate::geometry::parallel::LEAST_SHARE;
 use crate::relax::acceleration::Acceleration;
 use crate::relax::flatten::{Hinges, Lies, NOT_LAID};
 use crate::relax::global::{GlobalSolver, STALE_SHARE};
@@ -23,20 +24,14 @@ use crate::relax::{Memory, RelaxSettings};
 
 /// Weight on the matrix diagonal of a vertex that must not move: so heavy that its neighbours see it as fixed.
 const FIXED_WEIGHT: f64 = 1e4;
-/// Weight on the matrix diagonal of a vertex that is not placed, to keep the matrix regular.
-const UNMAPPED_WEIGHT: f64 = 1.0;
-/// Force by which touching cloth clings to the skin, in weights of the whole cloth, at [`USUAL_FRICTION`]
-/// (ALGORITHMS.md 1: the friction step is twice the gravity step; contact is uneven).
-const HOLDS: f64 = 4.0;
-/// Friction coefficient at which cloth clings with [`HOLDS`] times its weight.
-const USUAL_FRICTION: f64 = 0.3;
+/// Force by which touching cloth clings to the skin, in weights of the whole cloth, per unit of friction: four weights at the usual
+/// friction of 0.3 (ALGORITHMS.md 1: the friction step is twice the gravity step; contact is uneven).
+const CLING: f64 = 4.0 / 0.3;
 /// Largest ratio of the area of all cloth to that of touching cloth that the cling can hold: where less touches, the
 /// garment falls.
 const MOST_HELD: f64 = 50.0;
-/// Least number of vertices for a parallel task.
-const LEAST_SHARE: usize = 512;
 /// Fraction of the offset that a vertex keeps above its track plane in every step.
-const LEAST_HEIGHT: f64 = 0.5;
+pub const LEAST_HEIGHT: f64 = 0.5;
 /// Distance from the skin within which cloth is tested for being on the wrong side, metres on a body 1.5 m large.
 const WRONG_SIDE_REACH: f64 = 0.015;
 /// Number of faults for which one self-intersection of the cloth counts: finer meshes seldom repair it.
@@ -394,7 +389,8 @@ impl Relaxer {
                 (*weight, pull) = match (mapped[v], fixed[v]) {
                     (true, false) => targets.of(v, state.positions[v], push, force),
                     (true, true) => (FIXED_WEIGHT, DVec3::ZERO),
-                    (false, _) => (UNMAPPED_WEIGHT, DVec3::ZERO),
+                    // Any weight keeps the matrix regular where nothing is placed.
+                    (false, _) => (1.0, DVec3::ZERO),
                 };
                 pull
             })
@@ -418,7 +414,7 @@ impl Relaxer {
     }
 
     /// Computes the cling of each vertex: cloth clings to skin that it touches, so that its weight alone does not make
-    /// it creep down (paper A's threshold). All touching cloth together holds [`HOLDS`] times the weight of all cloth.
+    /// it creep down (paper A's threshold). All touching cloth together holds [`CLING`] times the weight of all cloth.
     fn find_cling(&mut self, state: &ClothState) {
         let (mut all, mut touching) = (0.0, 0.0);
         for v in (0..state.positions.len()).filter(|&v| state.mapped[v]) {
@@ -426,7 +422,7 @@ impl Relaxer {
             touching += if self.touches(state, v) { self.areas[v] } else { 0.0 };
         }
         let share = if touching > 0.0 { (all / touching).min(MOST_HELD) } else { 0.0 };
-        let each = HOLDS / USUAL_FRICTION * self.settings.gravity * share;
+        let each = CLING * self.settings.gravity * share;
         self.cling.iter_mut().zip(&self.areas).for_each(|(cling, area)| *cling = area * each);
     }
 

@@ -1,5 +1,13 @@
 //! Parameters of a global step.
 
+/// Usual [`GlobalStep::cap`], metres on a body 1.5 m large.
+pub const STEP_CAP: f64 = 0.02;
+/// A heavy [`GlobalStep::contact`], which keeps tight cloth that lies on the body from slipping through a limb.
+pub const HEAVY_CONTACT: f64 = 0.1;
+/// Cosine between the normals of two faces, or of a face and the cloth round it, below which the cloth is folded over there. Steps
+/// that unfold turn such faces over.
+pub const FOLDED: f64 = -0.2;
+
 /// Parameters of one global step.
 #[derive(Clone, Copy, Debug)]
 pub struct GlobalStep {

@@ -14,8 +14,6 @@ const SLIDE_MOMENTUM: f64 = 0.9;
 const WEIGHTED_MOMENTUM: f64 = 0.8;
 /// Largest push of a contact beyond the offset, metres on a body 1.5 m large.
 const MOST_PUSH: f64 = 0.1;
-/// Cosine between the normals of cloth and skin below which cloth is on the wrong side of the skin.
-const WRONG_SIDE: f64 = 0.0;
 /// Step by which cloth on the wrong side is moved away, metres on a body 1.5 m large.
 const SEND_AWAY: f64 = 0.003;
 /// Weight of separating intersecting layers: that of a few triangles, as only the cloth itself is in the way.
@@ -70,7 +68,8 @@ impl Targets<'_> {
         }
         let below = self.tracker.plane(v).map(|p| (p, self.offset + self.lift[v] - p.height(x)));
         match below {
-            Some((plane, below)) if self.step.unfold && plane.normal.dot(self.normals[v]) < WRONG_SIDE => {
+            // On the wrong side of the skin: facing against it.
+            Some((plane, below)) if self.step.unfold && plane.normal.dot(self.normals[v]) < 0.0 => {
                 *push = 0.0;
                 // Fade out towards the reach and towards the right side, so that the cloth comes to rest.
                 let facing = (-plane.normal.dot(self.normals[v]) * 4.0).clamp(0.0, 1.0);

@@ -15,14 +15,14 @@ use crate::repose::settings::{Outcome, ReposeSettings};
 
 /// Strain (99th percentile) up to which conforming alone counts as exact, provided that it left no vertex inside the body.
 const EXACT: f64 = 1e-6;
+/// Global steps between two checks of the strain.
+const STEPS_PER_LOOK: usize = 4;
 /// Most global steps in each intermediate pose.
-const STEPS_PER_SUBSTEP: usize = 12;
+const STEPS_PER_SUBSTEP: usize = 3 * STEPS_PER_LOOK;
 /// Strain (99th percentile) up to which the cloth goes to the new pose directly. More is resolved through intermediate poses.
 const AT_ONCE: f64 = 0.15;
 /// Global steps that spread the strain over enough cloth for strain limiting to do the rest.
-const FEW_STEPS: usize = 8;
-/// Global steps between two checks of the strain.
-const STEPS_PER_LOOK: usize = 4;
+const FEW_STEPS: usize = 2 * STEPS_PER_LOOK;
 /// Most rounds of strain limiting, each with contacts found anew, for the final result.
 const ROUNDS: usize = 60;
 /// Most rounds of strain limiting for a preview.

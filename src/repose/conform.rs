@@ -8,11 +8,9 @@ use rayon::prelude::*;
 
 use crate::body::Surface;
 use crate::geometry::barycentric;
+use crate::geometry::parallel::LEAST_SHARE;
 use crate::repose::distance_map::{Binding, DistanceMap};
 use crate::repose::turns::{mean, turns};
-
-/// Vertices that one thread takes at a time.
-const LEAST_SHARE: usize = 256;
 
 /// Positions of the vertices on `to`, a body of the same topology, given their `positions` on `from`, to which `map` binds them.
 /// Vertices bound to skin that has not moved, or to nothing, keep their positions bit for bit.

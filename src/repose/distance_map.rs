@@ -11,6 +11,7 @@ use crate::body::Surface;
 use crate::cloth::ClothState;
 use crate::contact::BodyOverlaps;
 use crate::geometry::barycentric;
+use crate::geometry::parallel::LEAST_SEARCHES;
 
 /// Most points that a vertex is bound to.
 const MOST: usize = 4;
@@ -18,8 +19,6 @@ const MOST: usize = 4;
 const FARTHEST: f64 = 1.3;
 /// Smallest distance between two bound points, as a multiple of the distance to the nearest: closer ones belong to one hollow.
 const APART: f64 = 0.5;
-/// Vertices that one thread takes at a time.
-const LEAST_SHARE: usize = 32;
 
 /// A vertex bound to a point of the skin.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -56,7 +55,7 @@ impl DistanceMap {
             .par_iter()
             .zip(&cloth.mapped)
             .enumerate()
-            .with_min_len(LEAST_SHARE)
+            .with_min_len(LEAST_SEARCHES)
             .map(|(v, (&p, &mapped))| match mapped {
                 true => bound(surface, p, |t| apart.is_some_and(|apart| apart.leaves_out(v, t))),
                 false => (Vec::new(), f64::INFINITY),

@@ -2,9 +2,6 @@
 
 use crate::cloth::{ClothState, Garment};
 
-/// Edges that were shorter than this, metres, are left out.
-const SHORTEST: f64 = 1e-9;
-
 /// Edge lengths at binding.
 #[derive(Clone, Debug)]
 pub(super) struct Lengths {
@@ -17,7 +14,8 @@ impl Lengths {
         let laid = |e: &&[u32; 2]| e.iter().all(|&v| cloth.mapped[v as usize]);
         let length = |[a, b]: [u32; 2]| cloth.positions[a as usize].distance(cloth.positions[b as usize]);
         let edges = garment.adjacency.edges.iter().filter(laid).map(|&e| (e, length(e)));
-        Self { edges: edges.filter(|(_, l)| *l > SHORTEST).collect() }
+        // Edges without a length have no strain.
+        Self { edges: edges.filter(|(_, l)| *l > 1e-9).collect() }
     }
 
     /// Each edge with its length at binding, metres.

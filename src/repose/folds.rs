@@ -3,9 +3,7 @@
 use glam::DVec3;
 
 use crate::cloth::{ClothState, Garment};
-
-/// Two faces form a fold when the cosine of the angle between their normals is below this.
-const FOLDED: f64 = -0.2;
+use crate::relax::step::FOLDED;
 
 /// Inner edges of a garment, where folds are counted.
 #[derive(Clone, Debug)]

@@ -4,6 +4,7 @@
 
 use crate::cloth::ClothState;
 use crate::relax::Relaxer;
+use crate::relax::relaxer::LEAST_HEIGHT;
 use crate::repose::excess::Lengths;
 
 /// Edges are projected to this share of the allowed strain, which leaves a margin for later repairs.
@@ -12,8 +13,6 @@ const AIM: f64 = 0.8;
 const SWEEPS: usize = 12;
 /// Distance within which skin is searched for, in offsets.
 const REACH: f64 = 4.0;
-/// Height above the skin that vertices keep, as a share of the offset.
-const CLEARANCE: f64 = 0.5;
 
 /// One round of strain limiting with contacts found anew: moves the edges of `state` towards strains of at most `most` relative
 /// to `lengths`, and its vertices out of the body. Returns whether nearly all edges are within.
@@ -52,7 +51,7 @@ fn limit(state: &mut ClothState, &([a, b], before): &([u32; 2], f64), most: f64)
 }
 
 fn raise(relaxer: &Relaxer, state: &mut ClothState) {
-    let least = CLEARANCE * relaxer.offset();
+    let least = LEAST_HEIGHT * relaxer.offset();
     for (v, p) in state.positions.iter_mut().enumerate() {
         if let Some(plane) = relaxer.plane(v as u32) {
             let lacks = least + relaxer.lift(v as u32) - plane.height(*p);

@@ -13,6 +13,7 @@ use rayon::prelude::*;
 
 use crate::body::Surface;
 use crate::geometry::adjacency::NONE;
+use crate::geometry::parallel::LEAST_SHARE;
 use crate::geometry::rebuild::Rebuild;
 use crate::repose::turns::{gradient, mean, triangle_turn, turns};
 
@@ -20,10 +21,6 @@ use crate::repose::turns::{gradient, mean, triangle_turn, turns};
 const LARGEST_TURN: f64 = 0.2;
 /// Share of all vertices that may rotate further: fingers and toes are not covered by cloth.
 const LEFT_OUT: f64 = 0.05;
-/// Rotation angle (radians) below which a triangle's axis is undefined.
-const LEAST_TURN: f64 = 1e-6;
-/// Triangles that one thread takes at a time.
-const LEAST_SHARE: usize = 256;
 
 /// Intermediate bodies between `from` and `to`: enough for a few degrees of rotation from one to the next, but at most `most`.
 /// They keep the position and orientation of `from`; the rigid motion of the whole body is left for the last step, where
@@ -204,7 +201,8 @@ impl Ways {
 /// Of the rotation vectors equivalent to `turn` the one nearest to `other`.
 fn nearest(turn: DVec3, other: DVec3) -> DVec3 {
     let angle = turn.length();
-    if angle < LEAST_TURN {
+    // Without a turn there is no axis.
+    if angle < 1e-6 {
         return turn;
     }
     let axis = turn / angle;

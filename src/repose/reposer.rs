@@ -7,8 +7,11 @@ use rayon::prelude::*;
 
 use crate::body::Surface;
 use crate::cloth::{ClothState, Counters, Garment};
+use crate::contact::faces::FACE_CLEARANCE;
 use crate::contact::{BodyOverlaps, Intersections};
+use crate::geometry::parallel::LEAST_SEARCHES;
 use crate::geometry::rebuild::Rebuild;
+use crate::relax::step::{HEAVY_CONTACT, STEP_CAP};
 use crate::relax::{Acceleration, GlobalStep, RelaxSettings, Relaxer, global};
 use crate::repose::distance_map::DistanceMap;
 use crate::repose::excess::Lengths;
@@ -17,24 +20,12 @@ use crate::repose::pose_path::between;
 use crate::repose::settings::{Outcome, ReposeSettings};
 use crate::repose::transfer::Transfer;
 
-/// Largest displacement of a vertex in one global step, metres, on a body whose largest side is 1.5 m.
-const STEP_CAP: f64 = 0.02;
-/// Weight of the contact constraints in the global steps.
-const CONTACT: f64 = 0.1;
 /// Acceleration of global steps in the same contacts. (Chebyshev's semi-iteration would amplify cloth that intersects itself.)
 const PACES: [Acceleration; 3] = Acceleration::longer(1.7);
-/// For a preview the matrix factor may be out of date for this share of the vertices.
-const LIVE_STALE_SHARE: f64 = 0.05;
 /// Global steps between two separations of intersecting layers.
 const STEPS_PER_PARTING: usize = 4;
-/// Clearance of edges and faces from the body, as a share of the offset.
-const FACE_CLEARANCE: f64 = 0.25;
-/// Smallest clearance of vertices from the body, as a share of the offset.
-const VERTEX_CLEARANCE: f64 = 0.25;
 /// Most attempts to move a vertex out of the body at the end: after a move, other skin may be the nearest.
 const SENDS: usize = 4;
-/// Vertices that one thread takes at a time.
-const LEAST_SHARE: usize = 128;
 
 /// A dressed garment bound to its body.
 #[derive(Clone, Debug)]
@@ -117,7 +108,8 @@ impl Reposer {
 
     /// Sets how often the matrix is factored again, as `care` requires.
     pub(super) fn refactor(&mut self, care: ReposeSettings) {
-        self.relaxer.refactor_beyond(if care.mends == 0 { LIVE_STALE_SHARE } else { global::STALE_SHARE });
+        let is_live = care.mends == 0;
+        self.relaxer.refactor_beyond(if is_live { global::LIVE_STALE_SHARE } else { global::STALE_SHARE });
     }
 
     /// Joins the triangles that followed their own skin, see [`Transfer::join`].
@@ -190,7 +182,8 @@ impl Reposer {
             let height = plane.height(state.positions[v]);
             if height < 0.0 {
                 inside += 1;
-                let wanted = heights[v].clamp(VERTEX_CLEARANCE * offset, 2.0 * offset);
+                // Not lower than the faces round it may be.
+                let wanted = heights[v].clamp(FACE_CLEARANCE * offset, 2.0 * offset);
                 state.positions[v] = plane.point + plane.normal * wanted;
             }
         }
@@ -201,7 +194,7 @@ impl Reposer {
     pub(super) fn step(&mut self, state: &mut ClothState, care: ReposeSettings, done: usize) {
         let step = GlobalStep {
             cap: STEP_CAP * self.relaxer.surface.scale(),
-            contact: CONTACT,
+            contact: HEAVY_CONTACT,
             hold: 0.0,
             slack: 0.0,
             unfold: care.mends > 0,
@@ -217,7 +210,7 @@ impl Reposer {
     /// overlapping parts of a body there is no way out.
     pub(super) fn send_out(&self, state: &mut ClothState) -> usize {
         let surface = &self.relaxer.surface;
-        let least = VERTEX_CLEARANCE * self.relaxer.offset();
+        let least = FACE_CLEARANCE * self.relaxer.offset();
         let sent = |(v, (p, &mapped)): (usize, (&mut DVec3, &bool))| {
             let left_out = |t: u32| self.apart.as_ref().is_some_and(|apart| apart.leaves_out(v, t));
             let near = |p: DVec3| surface.nearest_within_but(p, f64::INFINITY, left_out);
@@ -237,7 +230,7 @@ impl Reposer {
             .par_iter_mut()
             .zip(mapped.par_iter())
             .enumerate()
-            .with_min_len(LEAST_SHARE)
+            .with_min_len(LEAST_SEARCHES)
             .filter_map(|x| sent(x).then_some(()))
             .count()
     }

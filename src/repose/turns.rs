@@ -9,11 +9,7 @@ use glam::{DMat3, DQuat, DVec2, DVec3};
 use rayon::prelude::*;
 
 use crate::body::Surface;
-
-/// Vertices that one thread takes at a time.
-const LEAST_SHARE: usize = 256;
-/// A triangle whose height is less than this share of its first side counts as degenerate and has no rotation.
-const COLLAPSED: f64 = 1e-9;
+use crate::geometry::parallel::LEAST_SHARE;
 
 /// Rotation at each of `vertices`; None where neither the vertex nor its triangles have moved.
 pub(super) fn turns(from: &Surface, to: &Surface, vertices: &[u32]) -> Vec<Option<DQuat>> {
@@ -76,7 +72,8 @@ fn framed([a, b, c]: [DVec3; 3]) -> Option<(DMat3, [DVec2; 2])> {
     let (u, v) = (b - a, c - a);
     let (length, normal) = (u.length(), u.cross(v));
     let size = normal.length();
-    if size <= COLLAPSED * length * length || length == 0.0 {
+    // Without a height it has no rotation.
+    if size <= 1e-9 * length * length || length == 0.0 {
         return None;
     }
     let (x, z) = (u / length, normal / size);

@@ -7,15 +7,17 @@ use glam::DVec3;
 
 use crate::body::Surface;
 use crate::cloth::{Carry, ClothState, Counters, EdgeMetric, Garment, Skip};
+use crate::contact::faces::FACE_CLEARANCE;
 use crate::geometry::ids::PieceId;
 use crate::geometry::words::words;
 use crate::pattern::{Problem, ProblemKind};
+use crate::relax::step::STEP_CAP;
 use crate::relax::{GlobalStep, RelaxSettings, Relaxer};
 use crate::wrap::Marks;
 use crate::wrap::growth::{Growth, placed};
 use crate::wrap::limbs::Limbs;
 use crate::wrap::order::{Order, UNREACHED};
-use crate::wrap::plan::{LIGHT_CONTACT, PLANS, Plan};
+use crate::wrap::plan::{PLAIN, PLANS, Plan};
 use crate::wrap::roots::{PairStretch, Root, roots};
 use crate::wrap::settling::{SETTLE_STEPS, Settling};
 
@@ -27,33 +29,24 @@ const RINGS: usize = 2;
 const GLOBALS_PER_GROUP: usize = 3;
 /// Number of global steps between two tiers of growth.
 const TIER_STEPS: usize = 15;
-/// Largest move of a vertex in one global step, metres on a body 1.5 m large.
-const STEP_CAP: f64 = 0.02;
 /// Weight of contact while the cloth grows and closes: heavy, so that closing seams do not pull it through a limb.
 const GROW_CONTACT: f64 = 0.3;
-/// Weight by which marks hold their vertices while the cloth grows.
-const HOLD: f64 = 0.3;
-/// Weight by which marks hold their vertices after that, beyond [`LEASH`], on a mesh with edges of [`KEEP_EDGE`]. It
-/// stops a garment that is too tight from creeping off along the body, as static friction would. It grows with the
-/// square of the edge length: with longer edges fewer vertices are along a mark, and the forces of strain are larger.
-const KEEP: f64 = 0.001;
-/// Distance from its mark's position within which a vertex is free after growth, metres on a body 1.5 m large.
-const LEASH: f64 = 0.03;
-/// Edge length at which the weight is [`KEEP`], metres on a body 1.5 m large.
+/// How marks hold their vertices while the cloth grows.
+const HOLD: Hold = Hold { weight: 0.3, slack: 0.0 };
+/// How marks hold their vertices after that, on a mesh with edges of [`KEEP_EDGE`], on a body 1.5 m large. It stops a garment that
+/// is too tight from creeping off along the body, as static friction would. The weight grows with the square of the edge length:
+/// with longer edges fewer vertices are along a mark, and the forces of strain are larger.
+const KEEP: Hold = Hold { weight: 0.001, slack: 0.03 };
+/// Edge length at which the weight is that of [`KEEP`], metres on a body 1.5 m large.
 const KEEP_EDGE: f64 = 0.0175;
 /// Number of settling steps before flipped cloth and cloth on the wrong side is turned: by then it is roughly in place.
 const UNFOLD_AFTER: usize = 10;
-/// Factors on [`HOLD`] in the first settling steps. They are few, so that the matrix changes seldom.
+/// Factors on the weight of [`HOLD`] in the first settling steps. They are few, so that the matrix changes seldom.
 const HOLD_FADE: [f64; 3] = [1.0, 0.3, 0.1];
 /// Number of settling steps for each factor of [`HOLD_FADE`].
 const HOLD_FADE_STEPS: usize = 4;
 /// Number of settling steps between two separations of intersecting layers.
 const STEPS_PER_PARTING: usize = 10;
-/// Fraction of the progress that counts for the coarser meshes.
-const COARSE_PROGRESS: f64 = 0.8;
-/// Fraction of the offset that edges and faces must keep from the skin.
-const FACE_CLEARANCE: f64 = 0.25;
-
 /// Number of triangles per fault below which a wrap has failed; fewer faults are repaired on finer meshes.
 const TRIANGLES_PER_FAULT: usize = 150;
 
@@ -267,7 +260,7 @@ impl Dressing {
             coarse: None,
             plan: (!roots.is_empty() && dressed.is_none()).then_some(0),
             roots,
-            contact: LIGHT_CONTACT,
+            contact: PLAIN.contact,
             best: None,
             stretches,
         };
@@ -307,7 +300,7 @@ impl Dressing {
     /// Progress over growing and settling, 0..=1.
     pub fn progress(&self) -> f64 {
         if let Some(coarse) = &self.coarse {
-            return COARSE_PROGRESS * coarse.dressing.progress();
+            return 0.8 * coarse.dressing.progress();
         }
         let grown = self.mapped as f64 / self.to_map.max(1) as f64;
         match self.stage {
@@ -359,7 +352,7 @@ impl Dressing {
             coarse: None,
             roots: Vec::new(),
             plan: None,
-            contact: LIGHT_CONTACT,
+            contact: PLAIN.contact,
             best: None,
             stretches: Vec::new(),
         }
@@ -462,14 +455,14 @@ impl Dressing {
                 self.relaxer.part_layers(state);
             }
             for _ in 0..GLOBALS_PER_GROUP {
-                self.global(state, Hold { weight: HOLD, slack: 0.0 }, false, false);
+                self.global(state, HOLD, false, false);
             }
         }
         self.stage = Stage::Grow { limit, bands: bands + 1, fresh: Vec::new() };
     }
 
     fn between_tiers(&mut self, state: &mut ClothState, left: usize) {
-        self.global(state, Hold { weight: HOLD, slack: 0.0 }, false, false);
+        self.global(state, HOLD, false, false);
         self.stage = if left > 1 {
             Stage::BetweenTiers { left: left - 1 }
         } else {
@@ -486,12 +479,12 @@ impl Dressing {
         let first = settling.is_first();
         let fading = if first { HOLD_FADE.get(done / HOLD_FADE_STEPS).copied().unwrap_or(0.0) } else { 0.0 };
         let edge = self.edge_length / (KEEP_EDGE * self.relaxer.surface.scale());
-        let (hold, slack) = if fading > 0.0 {
-            (HOLD * fading, 0.0)
+        let hold = if fading > 0.0 {
+            Hold { weight: HOLD.weight * fading, ..HOLD }
         } else {
-            (KEEP * edge * edge, LEASH * self.relaxer.surface.scale())
+            Hold { weight: KEEP.weight * edge * edge, slack: KEEP.slack * self.relaxer.surface.scale() }
         };
-        let moved = self.global(state, Hold { weight: hold, slack }, done > UNFOLD_AFTER, !first);
+        let moved = self.global(state, hold, done > UNFOLD_AFTER, !first);
         let look = settling.crossed || !self.relaxer.settings.skips.allow(Skip::Crossings);
         if look && done > UNFOLD_AFTER && done.is_multiple_of(STEPS_PER_PARTING) {
             settling.crossed = self.relaxer.part_layers(state) > 0;

@@ -17,5 +17,6 @@ pub use coarser::coarser;
 pub use dressing::{Dressed, Dressing, Phase};
 pub use mark_error::{MarkError, mark_error};
 pub use marks::{BodyMark, ClothMark, ClothSide, MarkPlace, Marks, Tie};
+pub use placed::RUNS_ALONG;
 pub use roots::{PairStretch, stretches};
 pub use suggest::{Stand, stand, suggested};

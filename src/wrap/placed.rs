@@ -14,8 +14,8 @@ const FRONT_OR_BACK: f64 = 0.7;
 const AT_THE_MIDDLE: f64 = 0.08;
 /// Height below the highest within which something counts as uppermost too, metres.
 const AS_HIGH: f64 = 0.1;
-/// Cosine between a seam and the vertical: smaller ones run across, larger ones up and down.
-const ACROSS: f64 = 0.6;
+/// Cosine between a seam and a direction (the vertical, that of a sleeve) above which it runs along that; below, across.
+pub const RUNS_ALONG: f64 = 0.6;
 
 /// Distance within which a point is on an edge, metres.
 const AT_AN_EDGE: f64 = 1e-3;
@@ -207,7 +207,7 @@ pub(super) fn anchor(pattern: &CutPattern) -> Anchor<'_> {
         .filter(|sides| {
             sides.iter().all(|s| {
                 let panel = by_id[&s.piece];
-                panel.at_the_middle() && !is_elsewhere(panel.piece) && climb(panel, s.edge) < ACROSS
+                panel.at_the_middle() && !is_elsewhere(panel.piece) && climb(panel, s.edge) < RUNS_ALONG
             })
         })
         .collect();
@@ -321,7 +321,7 @@ fn front_to_back<'a>(
 /// The edges of side seams: by which `panels` in front and behind are sewn together, running up and down.
 pub(super) fn sides(pattern: &CutPattern, panels: &[Panel]) -> Vec<EdgeRef> {
     let by_id: BTreeMap<PieceId, &Panel> = panels.iter().map(|p| (p.id, p)).collect();
-    front_to_back(pattern, &by_id).flatten().filter(|s| climb(by_id[&s.piece], s.edge) > ACROSS).collect()
+    front_to_back(pattern, &by_id).flatten().filter(|s| climb(by_id[&s.piece], s.edge) > RUNS_ALONG).collect()
 }
 
 /// The part of a panel's upper edge on one side of the body that is sewn to a panel on the other side (front or back).
@@ -344,7 +344,7 @@ pub(super) fn over<'a>(pattern: &CutPattern, panels: &'a [Panel<'a>]) -> Vec<Ove
     let edges: Vec<EdgeRef> = front_to_back(pattern, &by_id).flatten().collect();
     let mut found = Vec::new();
     for (panel, left) in panels.iter().flat_map(|panel| [(panel, true), (panel, false)]) {
-        let own = edges.iter().filter(|e| e.piece == panel.id && climb(panel, e.edge) < ACROSS);
+        let own = edges.iter().filter(|e| e.piece == panel.id && climb(panel, e.edge) < RUNS_ALONG);
         let upper = own.filter(|e| is_upper(panel, e.edge));
         let places = upper.flat_map(|e| edge_places(panel, e.edge));
         let mut points: Vec<(DVec2, DVec3)> = places.filter(|(_, p)| (p.x > 0.0) == left).collect();

@@ -1,9 +1,6 @@
 //! Plans: alternative parameters for growing from the same marks.
 
-/// Light weight of contact, see [`Plan::contact`].
-pub(super) const LIGHT_CONTACT: f64 = 0.03;
-/// Heavy weight of contact, see [`Plan::contact`].
-const HEAVY_CONTACT: f64 = 0.1;
+use crate::relax::step::HEAVY_CONTACT;
 
 /// Parameters of growth. How cloth falls round a limb depends on small things: where one plan fails another succeeds.
 #[derive(Clone, Copy, Debug)]
@@ -35,12 +32,8 @@ pub(super) const PLANS: [Plan; 8] = [
     Plan { along_limbs: true, contact: HEAVY_CONTACT, ..PLAIN },
     Plan { along_limbs: true, contact: HEAVY_CONTACT, ..THOROUGH },
 ];
-const PLAIN: Plan = Plan {
-    local_passes: 6,
-    bands_per_global: 3,
-    pushes: 30,
-    part: false,
-    along_limbs: false,
-    contact: LIGHT_CONTACT,
-};
+/// The quickest plan, with a light contact.
+pub(super) const PLAIN: Plan =
+    Plan { local_passes: 6, bands_per_global: 3, pushes: 30, part: false, along_limbs: false, contact: 0.03 };
+/// More relaxation of what has just grown.
 const THOROUGH: Plan = Plan { local_passes: 12, bands_per_global: 1, ..PLAIN };

@@ -11,18 +11,22 @@ const QUIET_STEPS: usize = 5;
 const REST_FALL: f64 = 0.03;
 /// Energy up to which the cloth is at rest in any case: a strain of 0.01 %.
 const REST_ENERGY: f64 = 1e-8;
-/// Number of quiet steps after which the energy is compared again, when it still changed the first time.
-const CREEP_STEPS: usize = 15;
-/// Most settling steps: cloth that still moves then jitters in a fold.
-const MOST_SETTLE_STEPS: usize = 400;
-/// Most settling steps of a coarse mesh, which only has to be roughly in place.
-const DRAFT_SETTLE_STEPS: usize = 160;
-/// Most repairs of resting cloth: raising it off the body that it cuts, moving it to its own side.
-const MOST_MENDS: usize = 12;
-/// Most repairs of a coarse mesh.
-const DRAFT_MENDS: usize = 2;
 /// Number of steps in which a repair must take effect.
 const STEPS_PER_MEND: usize = 25;
+
+/// How long settling may take.
+#[derive(Clone, Copy, Debug)]
+struct Limits {
+    /// Most steps: cloth that still moves then jitters in a fold.
+    steps: usize,
+    /// Most repairs of resting cloth: raising it off the body that it cuts, moving it to its own side.
+    mends: usize,
+}
+
+/// For the mesh that is asked for.
+const FINE: Limits = Limits { steps: 400, mends: 12 };
+/// For a coarse mesh, which only has to be roughly in place: as long with gravity as without.
+const DRAFT: Limits = Limits { steps: 2 * SETTLE_STEPS, mends: 2 };
 
 /// State of settling.
 #[derive(Clone, Copy, Debug)]
@@ -31,8 +35,8 @@ pub(super) struct Settling {
     pub done: usize,
     /// Whether layers intersected at the last search, or none was made yet.
     pub crossed: bool,
-    /// Whether a finer mesh continues from the result.
-    draft: bool,
+    /// Most repairs.
+    most_mends: usize,
     /// Number of quiet steps in a row.
     quiet: usize,
     /// Number of repairs made.
@@ -48,8 +52,8 @@ pub(super) struct Settling {
 impl Settling {
     /// Settling from step `done` on. `draft`: a finer mesh continues from the result.
     pub fn from(done: usize, draft: bool) -> Self {
-        let until = if draft { DRAFT_SETTLE_STEPS } else { MOST_SETTLE_STEPS };
-        Self { done, crossed: true, draft, quiet: 0, mends: 0, until, energy: 0.0, creeps: false }
+        let Limits { steps: until, mends: most_mends } = if draft { DRAFT } else { FINE };
+        Self { done, crossed: true, most_mends, quiet: 0, mends: 0, until, energy: 0.0, creeps: false }
     }
 
     /// Whether settling is in its first part, without gravity.
@@ -64,7 +68,8 @@ impl Settling {
         if self.quiet == 1 {
             self.energy = energy();
         }
-        let enough = if self.creeps { CREEP_STEPS } else { QUIET_STEPS };
+        // Where the energy still changed the first time it is compared again after longer.
+        let enough = if self.creeps { 3 * QUIET_STEPS } else { QUIET_STEPS };
         if self.quiet >= enough && !self.is_first() {
             let energy = energy();
             let changes = (self.energy - energy).abs() > REST_FALL * energy && energy > REST_ENERGY;
@@ -78,7 +83,7 @@ impl Settling {
 
     /// Whether resting cloth may be repaired once more.
     pub fn may_mend(&self) -> bool {
-        self.mends < if self.draft { DRAFT_MENDS } else { MOST_MENDS }
+        self.mends < self.most_mends
     }
 
     /// The state after a step.

@@ -18,6 +18,7 @@ use crate::body::pose::motion::Placement;
 use crate::body::pose::regions::{JOINTS, Regions};
 use crate::body::skeleton::{Joint, Skeleton};
 use crate::body::surface::Surface;
+use crate::geometry::parallel::LEAST_SHARE;
 use crate::geometry::rebuild::Rebuild;
 
 /// Weight up to which a joint does not move a triangle.
@@ -27,8 +28,6 @@ const LEAST: f64 = 1e-4;
 const ROUND: f64 = 0.05;
 /// Number of rigs in the cache, so that a change of measurements and back is quick.
 const MOST_KEPT: usize = 4;
-/// Least number of triangles for a parallel task.
-const LEAST_SHARE: usize = 512;
 
 /// A mannequin prepared for posing.
 #[derive(Debug)]

@@ -9,7 +9,7 @@ use serde::{Deserialize, Serialize};
 use crate::body::Surface;
 use crate::cli::failure::Failure;
 use crate::cli::files;
-use crate::cloth::Fabric;
+use crate::cloth::{Fabric, GRAVITY};
 use crate::drape::forces::bands::Bands;
 use crate::drape::forces::folds::Folds;
 use crate::drape::{Elastic, Integrator, Method, Scene, Sheet};
@@ -155,7 +155,7 @@ impl From<IntegratorChoice> for Integrator {
 }
 
 fn gravity() -> [f64; 3] {
-    [0.0, -9.81, 0.0]
+    GRAVITY.to_array()
 }
 
 fn fps() -> f64 {

@@ -5,18 +5,13 @@ use glam::DVec3;
 use rayon::prelude::*;
 
 use crate::contact::separation::features;
-use crate::contact::separation::topology::{PlacedTriangle, Topology};
+use crate::contact::separation::topology::{PlacedTriangle, SLACK, Topology};
+use crate::geometry::parallel::LEAST_SUMS;
 
 /// Cost of measuring a group anew, in costs of looking at one. Groups are measured when as much was spent on looks in vain.
 const MEASURE: u64 = 4;
 /// Largest factor on that, where measuring did not help.
 const MOST_PATIENCE: u64 = 64;
-/// Share of the groups that must be passed over after measuring, for measuring to have helped.
-const HELPED: f64 = 0.5;
-/// Rounding errors of distances, metres.
-const SLACK: f64 = 1e-9;
-/// Groups for a parallel task.
-const LEAST_SHARE: usize = 1024;
 
 /// Pairs of features of two neighbouring triangles: corners of the first against the second, or sides of both.
 #[derive(Clone, Debug)]
@@ -124,7 +119,7 @@ impl Beside {
             let moved = (a - b).length_squared().max((b - c).length_squared()).max((c - a).length_squared());
             moved.sqrt() + triangle.farthest
         };
-        placed.par_iter().with_min_len(LEAST_SHARE).map(near).collect_into_vec(&mut self.near);
+        placed.par_iter().with_min_len(LEAST_SUMS).map(near).collect_into_vec(&mut self.near);
     }
 
     /// Whether the features of a group are known to be farther apart than their reach and `thickness`, metres.
@@ -144,7 +139,8 @@ impl Beside {
         if self.in_vain < MEASURE * self.patience.max(1) * all || all == 0 {
             return;
         }
-        let has_helped = self.patience == 0 || (first as f64) < (1.0 - HELPED) * all as f64;
+        // Measuring helps where more than half of the groups are passed over after it.
+        let has_helped = self.patience == 0 || 2 * first < all;
         self.patience = if has_helped { 1 } else { (2 * self.patience).min(MOST_PATIENCE) };
         (self.first, self.in_vain) = (None, 0);
         self.measured_at.clear();
@@ -159,13 +155,13 @@ impl Beside {
         let measure = |group: &mut Group, smallest: f64| {
             group.gap = if share(group) { (smallest as f32).next_down() } else { -1.0 };
         };
-        self.corners.par_iter_mut().with_min_len(LEAST_SHARE).for_each(|group| {
+        self.corners.par_iter_mut().with_min_len(LEAST_SUMS).for_each(|group| {
             let [one, two] = group.triangles.map(of);
             let gaps =
                 group.corners().map(|k| gap(features::vertex_and_triangle(one.corners[k], two.corners)));
             measure(group, gaps.fold(f64::INFINITY, f64::min));
         });
-        self.sides.par_iter_mut().with_min_len(LEAST_SHARE).for_each(|group| {
+        self.sides.par_iter_mut().with_min_len(LEAST_SUMS).for_each(|group| {
             let [one, two] = group.triangles.map(of);
             let gaps = group.sides().map(|[k, m]| gap(features::edges(one.side(k), two.side(m))));
             measure(group, gaps.fold(f64::INFINITY, f64::min));

@@ -4,9 +4,7 @@ use glam::Vec3A;
 use rayon::prelude::*;
 
 use crate::geometry::bvh::{Aabb, Bvh};
-
-/// Nodes for a parallel task.
-const SHARE: usize = 64;
+use crate::geometry::parallel::LEAST_SEARCHES;
 
 /// A box in single precision, which contains the box in double precision that it was made from.
 #[derive(Clone, Copy, Debug)]
@@ -115,7 +113,7 @@ impl Broad {
         let count = self.nodes.len();
         let share = |share: usize| {
             let (mut found, mut open) = (Pairs::new(), Vec::new());
-            for node in share * SHARE..count.min((share + 1) * SHARE) {
+            for node in share * LEAST_SEARCHES..count.min((share + 1) * LEAST_SEARCHES) {
                 let node = node as u32;
                 self.pairs_below(node, &mut open, |one, two| {
                     let items = [one, two].map(|at| self.tree.items[at as usize]);
@@ -131,7 +129,7 @@ impl Broad {
             }
             found
         };
-        (0..count.div_ceil(SHARE)).into_par_iter().map(share).collect()
+        (0..count.div_ceil(LEAST_SEARCHES)).into_par_iter().map(share).collect()
     }
 
     /// Calls `found` for every two items whose boxes meet, one below each child of `node`; for a leaf for every two of it.

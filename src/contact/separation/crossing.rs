@@ -2,8 +2,9 @@
 
 use rayon::prelude::*;
 
-use crate::contact::separation::{LEAST_SHARE, Separation};
+use crate::contact::separation::Separation;
 use crate::geometry::crossings::segment_meets_triangle;
+use crate::geometry::parallel::{LEAST_SEARCHES, LEAST_SHARE};
 
 /// Pairs of features that may pass through each other, because they intersect; sorted.
 #[derive(Debug, Default)]
@@ -97,7 +98,8 @@ impl Crossings {
 
     fn look_inside(&mut self, this: &Separation, is_inside: impl Fn(usize) -> bool + Sync) {
         let count = this.anchors.len();
-        let inside: Vec<bool> = (0..count).into_par_iter().with_min_len(64).map(&is_inside).collect();
+        let inside: Vec<bool> =
+            (0..count).into_par_iter().with_min_len(LEAST_SEARCHES).map(&is_inside).collect();
         if inside.contains(&true) {
             self.triangles_inside =
                 this.cloth.triangles.iter().map(|vs| vs.iter().any(|&v| inside[v as usize])).collect();

@@ -4,9 +4,6 @@ use glam::DVec3;
 
 use crate::body::closest::closest_on_triangle;
 
-/// Distance below which two features count as touching, without a direction between them, metres.
-const TOUCHING: f64 = 1e-12;
-
 /// Separation of two features along the direction between their closest points.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Seen {
@@ -60,7 +57,8 @@ fn barycentric(p: DVec3, a: DVec3, b: DVec3, c: DVec3) -> [f64; 2] {
 /// Separation of two features along `way`, which leads from `other` to `one`; None where `way` does not separate them.
 fn between(way: DVec3, one: &[DVec3], other: &[DVec3]) -> Option<Seen> {
     let distance = way.length();
-    if distance < TOUCHING {
+    // Features that touch have no direction between them.
+    if distance < 1e-12 {
         return None;
     }
     let normal = way / distance;

@@ -36,6 +36,7 @@ pub use crate::contact::separation::topology::Obstacle;
 use crate::contact::separation::topology::{PlacedTriangle, Topology};
 use crate::geometry::adjacency::Adjacency;
 use crate::geometry::bvh::Aabb;
+use crate::geometry::parallel::{LEAST_SHARE, LEAST_SUMS};
 
 /// Fraction of the distance between two features that remains at least until the next detection; see [`kept`].
 const KEPT: f64 = 0.1;
@@ -46,10 +47,6 @@ const FLOOR: f64 = 1e-5;
 const LEAST_ROOM: f64 = 0.2;
 /// Most sweeps of projections on to half-spaces, before a vertex is pulled straight back towards its anchor.
 const SWEEPS: usize = 3;
-/// Least number of vertices, or nodes of a tree, for a parallel task.
-const LEAST_SHARE: usize = 256;
-/// Groups of features of neighbouring triangles for a parallel task.
-const LEAST_BESIDE: usize = 2048;
 
 /// A half-space: normal · x ≥ height.
 #[derive(Clone, Copy, Debug)]
@@ -257,13 +254,13 @@ impl Separation {
             },
             |s, t, found| self.at_obstacle(s, t, crossings, found),
         );
-        let corners = self.beside.corners.par_chunks(LEAST_BESIDE).map(|groups| {
+        let corners = self.beside.corners.par_chunks(LEAST_SUMS).map(|groups| {
             self.beside_of(groups, |group, found| {
                 group.corners().for_each(|k| self.vertex_at(group.triangles, k, crossings, found));
             })
         });
         found.par_extend(corners);
-        let sides = self.beside.sides.par_chunks(LEAST_BESIDE).map(|groups| {
+        let sides = self.beside.sides.par_chunks(LEAST_SUMS).map(|groups| {
             self.beside_of(groups, |group, found| {
                 group.sides().for_each(|sides| self.edges_at(group.triangles, sides, crossings, found));
             })

@@ -8,8 +8,8 @@ use crate::contact::separation::broad::Broad;
 use crate::geometry::adjacency::Adjacency;
 use crate::geometry::bvh::Aabb;
 
-/// Rounding errors of heights, metres and as a share.
-const SLACK: f64 = 1e-9;
+/// Rounding errors of heights and distances, metres and as a share.
+pub(super) const SLACK: f64 = 1e-9;
 
 /// The features of a mesh.
 #[derive(Clone, Debug)]

@@ -11,15 +11,13 @@ use crate::body::closest::closest_on_triangle;
 use crate::drape::contact::pair::{Pair, segments_apart};
 use crate::drape::sheet::Sheet;
 use crate::geometry::bvh::{Aabb, Bvh};
+use crate::geometry::parallel::LEAST_SHARE;
 
 /// Largest collision thickness as a share of the mean edge length: thicker, and neighbours in flat cloth would be in contact.
 const MOST_THICKNESS: f64 = 0.7;
 
 /// Factor on the expected displacements in a step, which widens the distance within which pairs are collected.
 const LOOK_AHEAD: f64 = 1.5;
-
-/// Vertices or edges that one thread takes at a time.
-const LEAST_SHARE: usize = 256;
 
 /// Candidate pairs of one step, and those in contact.
 #[derive(Clone, Debug, Default)]

@@ -8,9 +8,8 @@ use glam::{DMat3, DVec3};
 use crate::drape::sheet::Sheet;
 use crate::drape::solver::chain::{Chain, Drawn, chains};
 use crate::drape::solver::net::Spring;
+use crate::drape::solver::ties::THREAD_SPEED;
 
-/// Largest speed at which elastic draws cloth together in small steps, m/s.
-const FASTEST: f64 = 2.0;
 /// Number of times that a row is solved in a small step, each with its share of the stiffness. Gathered cloth turns its links by
 /// so much that once leaves 2.5 % of a ratio of 0.85 over, twice 0.2 %.
 const PASSES: usize = 3;
@@ -170,7 +169,7 @@ impl Bands {
             let band = &self.bands[i as usize];
             Drawn { length: band.short(), stiffness: band.pull() / PASSES as f64 }
         };
-        let most = FASTEST * small / PASSES as f64;
+        let most = THREAD_SPEED * small / PASSES as f64;
         pulled.clear();
         pulled.resize(x.len(), 0.0);
         let ends = || self.bands.iter().flat_map(|band| band.ends).map(|v| v as usize);

@@ -15,14 +15,10 @@ use rayon::prelude::*;
 
 use crate::cloth::fabric::Bending as Stiffness;
 use crate::drape::sheet::Sheet;
+use crate::geometry::parallel::LEAST_SUMS;
 
 /// Largest coefficient of a second derivative, times the squared size of the triangle: a fit beyond this amplifies noise.
 const MOST_GAIN: f64 = 20.0;
-/// Smallest pivot of a fit as a share of the largest entry: below it the points do not determine a quadratic.
-const LEAST_PIVOT: f64 = 1e-6;
-
-/// Matrix rows that one thread takes at a time.
-const LEAST_SHARE: usize = 1024;
 
 /// Bending energy as a sparse symmetric matrix Q, N/m: xᵀQx/2 in each axis.
 #[derive(Clone, Debug)]
@@ -147,7 +143,7 @@ impl Bending {
 
     /// Writes the gradient, N, of each vertex times its `factor`.
     pub fn write_forces(&self, x: &[DVec3], forces: &mut [DVec3], factor: impl Fn(usize) -> f64 + Sync) {
-        let rows = forces.par_iter_mut().enumerate().with_min_len(LEAST_SHARE);
+        let rows = forces.par_iter_mut().enumerate().with_min_len(LEAST_SUMS);
         rows.for_each(|(i, force)| *force = self.row_times(i, x) * factor(i));
     }
 
@@ -316,9 +312,11 @@ fn inverse(mut a: [[f64; 6]; 6]) -> Option<[[f64; 6]; 6]> {
     let mut b = [[0.0; 6]; 6];
     (0..6).for_each(|i| b[i][i] = 1.0);
     let largest = a.iter().flatten().fold(0.0, |most: f64, v| most.max(v.abs()));
+    // With a smaller pivot the points do not determine a quadratic.
+    let least_pivot = 1e-6 * largest;
     for c in 0..6 {
         let pivot = (c..6).max_by(|&i, &j| a[i][c].abs().total_cmp(&a[j][c].abs()))?;
-        if a[pivot][c].abs() <= LEAST_PIVOT * largest {
+        if a[pivot][c].abs() <= least_pivot {
             return None;
         }
         a.swap(c, pivot);
@@ -343,8 +341,6 @@ fn inverse(mut a: [[f64; 6]; 6]) -> Option<[[f64; 6]; 6]> {
 mod tests {
     use super::*;
 
-    const PLATE: Stiffness = Stiffness { warp: 1e-5, weft: 1e-5, bias: 1e-5, poisson: 0.3 };
-
     /// A sheet of squares of 1 cm; the vertex in the middle lies `near` metres beside the one to its left.
     fn sheet(near: f64) -> Sheet {
         let at = |i: u32, j: u32| if (i, j) == (6, 6) { 0.05 + near } else { 0.01 * f64::from(i) };
@@ -362,16 +358,17 @@ mod tests {
 
     #[test]
     fn only_what_is_too_stiff_for_its_steps_is_softened() {
+        let plate = Stiffness { warp: 1e-5, weft: 1e-5, bias: 1e-5, poisson: 0.3 };
         let mass = |sheet: &Sheet| -> Vec<f64> { sheet.vertex_area.iter().map(|a| a * 0.15).collect() };
         let even = sheet(0.01);
         let (plain, rate) =
-            (Bending::new(&even, &PLATE), fastest(&Bending::new(&even, &PLATE), &mass(&even)));
-        let same = Bending::slower_than(rate * 1.001, &mass(&even), &even, |_| &PLATE);
+            (Bending::new(&even, &plate), fastest(&Bending::new(&even, &plate), &mass(&even)));
+        let same = Bending::slower_than(rate * 1.001, &mass(&even), &even, |_| &plate);
         assert_eq!((&plain.columns, &plain.values), (&same.columns, &same.values));
         let sliver = sheet(2e-4);
         let mass = mass(&sliver);
         let (plain, soft) =
-            (Bending::new(&sliver, &PLATE), Bending::slower_than(rate * 1.001, &mass, &sliver, |_| &PLATE));
+            (Bending::new(&sliver, &plate), Bending::slower_than(rate * 1.001, &mass, &sliver, |_| &plate));
         assert!(fastest(&plain, &mass) > 3.0 * rate, "{} of {rate}", fastest(&plain, &mass));
         assert!(fastest(&soft, &mass) <= rate * 1.002, "{} of {rate}", fastest(&soft, &mass));
         let corner = |v: usize| soft.row(v).zip(plain.row(v)).all(|(soft, plain)| soft == plain);

@@ -14,8 +14,6 @@ use crate::drape::sheet::Sheet;
 const DAMPING: f64 = 0.05;
 /// Largest speed at which a hinge is turned in small steps, rad/s.
 const FASTEST: f64 = 15.0;
-/// Areas squared below this share of the edge to the fourth count as none: such a triangle has no normal.
-const LEAST_AREA: f64 = 1e-12;
 
 /// An edge between two triangles that is turned to an angle.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -145,7 +143,8 @@ impl Hinge {
         let squared = edge.length_squared();
         let (first, second) = (edge.cross(c - a), (d - a).cross(edge));
         let (one, other) = (first.length_squared(), second.length_squared());
-        let least = LEAST_AREA * squared * squared;
+        // A triangle with less area has no normal.
+        let least = 1e-12 * squared * squared;
         if one <= least || other <= least || squared == 0.0 {
             return None;
         }

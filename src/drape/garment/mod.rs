@@ -18,7 +18,7 @@ use std::sync::Arc;
 use glam::{DVec2, DVec3};
 
 use crate::body::Surface;
-use crate::cloth::{ClothState, Counters, Fabric, Garment, Skips};
+use crate::cloth::{ClothState, Counters, Fabric, GRAVITY, Garment, Skips};
 use crate::contact::faces::Lying;
 use crate::contact::{Faces, Obstacle, Separation, separation};
 use crate::drape::contact::body::Collider;
@@ -42,8 +42,6 @@ use crate::geometry::words::{Words, words};
 
 /// Simulated time of a tick, seconds.
 pub const TICK: f64 = 1.0 / 60.0;
-/// Gravity, m/s².
-const GRAVITY: DVec3 = DVec3::new(0.0, -9.81, 0.0);
 /// Clearance that cloth keeps from the skin besides its own thickness, metres: skin yields by about as much.
 const SKIN: f64 = 0.001;
 /// Share of the offset from the body that interiors of faces and edges must keep; vertices keep all of it.
@@ -84,7 +82,8 @@ const SLOWING: f64 = 0.9;
 const SLOWEST: f64 = 0.25;
 /// Ticks after which cloth counts as resting in any case.
 const MOST_TICKS: u64 = 1200;
-/// Work in one call of [`DrapedGarment::go_on`]: vertices moved in small steps plus pairs of features tested; about 0.03 s.
+/// Work in one call of [`DrapedGarment::go_on`]: vertices moved in small steps plus pairs of features tested, or triangles tested
+/// for intersections while deep ones are pulled out; about 0.03 s.
 const MOST_WORK: u64 = 60_000;
 /// Stiffness of the drag constraint, N/m, and its largest force in weights of the garment.
 const HAND: (f64, f64) = (60.0, 1.0);

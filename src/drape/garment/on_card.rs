@@ -12,6 +12,7 @@ use rayon::prelude::*;
 use crate::card::{Body, Card, CardFault, CardSlot, CardSteps, Cloth, Hand, Span};
 use crate::drape::garment::{Begun, DrapedGarment, Fixed};
 use crate::drape::solver::small_steps::{Advance, EASE, Surroundings};
+use crate::geometry::parallel::LEAST_SEARCHES;
 
 /// Triangles from which on a card is faster than two processor cores: at 10,000 three times (H100), and more with more.
 pub const LEAST_TRIANGLES: usize = 8000;
@@ -19,10 +20,6 @@ pub const LEAST_TRIANGLES: usize = 8000;
 const MOST_WORK: usize = 12_000_000;
 /// Ticks for which the processor drapes after the card could not.
 const PAUSE: u32 = 12;
-/// Vertices for a parallel task.
-const LEAST_SHARE: usize = 256;
-/// Distance from the body, in offsets, within which a vertex counts as near it.
-const NEAR: f64 = 2.0;
 
 /// A garment on a card.
 #[derive(Clone, Debug)]
@@ -133,11 +130,11 @@ impl DrapedGarment {
                 .map(|(v, x)| self.small.height(v, *x).is_some())
                 .collect();
         }
-        // The processor's look-ups are old by now.
+        // The processor's look-ups are old by now. As for those, twice the offset is near.
         let lifts = self.small.lift();
         let is_near =
-            |(x, lift): (&DVec3, &f64)| collider.surface.nearest_within(*x, NEAR * (offset + lift)).is_some();
-        self.state.positions.par_iter().zip(lifts).with_min_len(LEAST_SHARE).map(is_near).collect()
+            |(x, lift): (&DVec3, &f64)| collider.surface.nearest_within(*x, 2.0 * (offset + lift)).is_some();
+        self.state.positions.par_iter().zip(lifts).with_min_len(LEAST_SEARCHES).map(is_near).collect()
     }
 }
 

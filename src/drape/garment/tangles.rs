@@ -6,7 +6,7 @@ use glam::DVec3;
 
 use crate::cloth::ClothState;
 use crate::contact::Intersections;
-use crate::drape::garment::{DrapedGarment, own_number};
+use crate::drape::garment::{DrapedGarment, MOST_WORK, own_number};
 use crate::drape::state::State;
 
 /// Separation steps in a row without fewer intersections, after which the intersections stay and the report tells them.
@@ -17,8 +17,6 @@ const PARTING: f64 = 0.0005;
 const MOST_PULLS: usize = 80;
 /// Failed attempts in a row after which deep intersections are left.
 const MOST_IN_VAIN: u32 = 3;
-/// Triangles tested for intersections in one part of the work while deep ones are pulled out; at least one step is made.
-const TRIANGLES_A_TICK: usize = 60_000;
 
 /// An attempt to pull out cloth that is deep on the wrong side of other cloth.
 #[derive(Clone, Debug)]
@@ -103,7 +101,7 @@ impl DrapedGarment {
         let Some(mut pulling) = self.pulling.take() else { return };
         let fixed = Arc::clone(&self.fixed);
         let garment = &*fixed.garment;
-        for _ in 0..(TRIANGLES_A_TICK / garment.triangles.len().max(1)).max(1) {
+        for _ in 0..(MOST_WORK / garment.triangles.len().max(1) as u64).max(1) {
             self.send_out(&pulling.ways);
             self.write(cloth);
             pulling.left -= 1;

@@ -14,8 +14,6 @@ use crate::geometry::factor::Factor;
 
 /// Halvings of the step in a line search before the direction is given up.
 const MOST_HALVINGS: usize = 12;
-/// Relative energy difference that counts as rounding error.
-const ROUNDING: f64 = 1e-13;
 
 /// Inertia and external loads as a quadratic energy of each vertex: w/2 |x - y|² - f·x.
 #[derive(Clone, Debug, Default)]
@@ -255,7 +253,7 @@ impl Newton {
             let there: Vec<DVec3> = x.iter().zip(direction).map(|(x, d)| *x + *d * step).collect();
             let reached = self.evaluate(task, contacts, itself, &there, &mut after);
             let slope_after: f64 = after.iter().zip(direction).map(|(g, d)| g.dot(*d)).sum();
-            let rounding = ROUNDING * (energy.abs() + reached.abs());
+            let rounding = 1e-13 * (energy.abs() + reached.abs());
             let falls = reached <= *energy + 1e-4 * step * slope;
             let flat = reached <= *energy + rounding && slope_after.abs() <= 0.9 * slope.abs();
             // The energy of friction belongs to the earlier normal forces; with contacts a slope that lessens is as good a sign

@@ -1,6 +1,6 @@
 //! Elimination order of a sparse factor: nested dissection along breadth-first levels (George 1973; George and Liu 1978).
 
-use crate::geometry::adjacency::Lists;
+use crate::geometry::adjacency::{Lists, NONE};
 
 /// Parts of at most this many vertices are not divided further.
 const LEAST_PART: usize = 24;
@@ -9,7 +9,7 @@ const LEAST_PART: usize = 24;
 pub fn nested_dissection(neighbours: &Lists) -> Vec<u32> {
     let count = neighbours.len();
     let mut cut =
-        Cut { neighbours, part: vec![0; count], parts: 0, level: vec![NOT_YET; count], order: Vec::new() };
+        Cut { neighbours, part: vec![0; count], parts: 0, level: vec![NONE; count], order: Vec::new() };
     let all: Vec<u32> = (0..count as u32).collect();
     // Separators come last, so the order is found backwards.
     let mut stack = vec![all];
@@ -20,13 +20,12 @@ pub fn nested_dissection(neighbours: &Lists) -> Vec<u32> {
     cut.order
 }
 
-const NOT_YET: u32 = u32::MAX;
-
 struct Cut<'a> {
     neighbours: &'a Lists,
     /// Number of the part that each vertex is in.
     part: Vec<u32>,
     parts: u32,
+    /// Level of each vertex; [`NONE`] for those not reached.
     level: Vec<u32>,
     /// Elimination order, last vertex first.
     order: Vec<u32>,
@@ -44,7 +43,7 @@ impl Cut<'_> {
         let far = *self.levels(&part, far).last().unwrap_or(&far);
         let reached = self.levels(&part, far);
         if reached.len() < part.len() {
-            let rest = part.iter().copied().filter(|&v| self.level[v as usize] == NOT_YET).collect();
+            let rest = part.iter().copied().filter(|&v| self.level[v as usize] == NONE).collect();
             stack.push(rest);
             stack.push(reached);
             return;
@@ -76,14 +75,14 @@ impl Cut<'_> {
 
     /// Breadth-first search from `from` within `part`: the vertices reached, nearest first. Stores their levels.
     fn levels(&mut self, part: &[u32], from: u32) -> Vec<u32> {
-        part.iter().for_each(|&v| self.level[v as usize] = NOT_YET);
+        part.iter().for_each(|&v| self.level[v as usize] = NONE);
         self.level[from as usize] = 0;
         let mut reached = vec![from];
         let mut at = 0;
         while at < reached.len() {
             let v = reached[at];
             for &w in self.neighbours.of(v) {
-                if self.part[w as usize] == self.parts && self.level[w as usize] == NOT_YET {
+                if self.part[w as usize] == self.parts && self.level[w as usize] == NONE {
                     self.level[w as usize] = self.level[v as usize] + 1;
                     reached.push(w);
                 }

@@ -2,7 +2,8 @@
 
 use glam::DVec3;
 
-/// Largest speed at which sewing springs and buttons close, m/s: a gap that cloth and body hold open against that stays open.
+/// Largest speed at which sewing springs, buttons and elastic draw cloth together, m/s: a gap that cloth and body hold open against
+/// that stays open.
 pub const THREAD_SPEED: f64 = 2.0;
 
 /// Sewing spring: a distance constraint between two vertices that only pulls.

@@ -3,7 +3,8 @@
 use glam::DVec3;
 use rayon::prelude::*;
 
-use crate::fit::maps::{LEAST_SHARE, Worn, laid_corners, per_vertex};
+use crate::fit::maps::{Worn, laid_corners, per_vertex};
+use crate::geometry::parallel::LEAST_SHARE;
 
 /// Paper C's curvature: the largest angle between the normals of two triangles that share the vertex, radians. NaN where
 /// fewer than two have an area.

@@ -21,10 +21,8 @@ use rayon::prelude::*;
 use crate::body::{Nearest, Surface};
 use crate::cloth::{ClothState, Fabric, Garment};
 use crate::geometry::ids::PieceId;
+use crate::geometry::parallel::LEAST_SHARE;
 use crate::pattern::Pattern;
-
-/// Vertices or triangles that one thread takes at a time.
-const LEAST_SHARE: usize = 256;
 
 /// Values of a map; NaN where there is none: cloth that is not laid, borders where a curvature is undefined.
 #[derive(Clone, Debug, PartialEq)]

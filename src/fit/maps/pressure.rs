@@ -4,15 +4,14 @@ use glam::DVec3;
 use rayon::prelude::*;
 
 use crate::body::Nearest;
-use crate::cloth::fabric::{green, stress, wrinkled};
+use crate::cloth::fabric::{GRAVITY, green, stress, wrinkled};
 use crate::fit::maps::curvature::corner;
 use crate::fit::maps::strain::{flat, grain};
-use crate::fit::maps::{LEAST_SHARE, Worn, laid_corners, per_vertex};
+use crate::fit::maps::{Worn, laid_corners, per_vertex};
+use crate::geometry::parallel::LEAST_SHARE;
 
 /// Distance from the skin, in offsets of a wrap, up to which cloth counts as touching it.
 const LIES: f64 = 1.25;
-/// Gravity, m/s².
-const GRAVITY: DVec3 = DVec3::new(0.0, -9.81, 0.0);
 
 /// Pressure on the skin at each vertex that touches it, Pa: the normal component of the forces at the vertex over its mixed
 /// Voronoi area. The forces are those of the membrane in its present strain, wrinkled where compressed, and the weight. This is

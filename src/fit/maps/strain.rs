@@ -5,8 +5,9 @@ use std::collections::BTreeMap;
 use glam::{DMat2, DVec2, DVec3};
 use rayon::prelude::*;
 
-use crate::fit::maps::{LEAST_SHARE, MapKind, Worn, laid_corners};
+use crate::fit::maps::{MapKind, Worn, laid_corners};
 use crate::geometry::ids::PieceId;
+use crate::geometry::parallel::LEAST_SHARE;
 
 /// A triangle whose area is less than this share of its longest side squared has no strain.
 const FLAT: f64 = 1e-9;
