@@ -15,6 +15,7 @@ pub mod skips;
 pub mod trim_parts;
 pub mod trim_shapes;
 pub mod trims;
+pub mod wedges;
 pub mod wrinkles;
 
 pub use build::{build, build_again};
@@ -29,3 +30,4 @@ pub use skips::{Skip, Skips};
 pub use trim_parts::{TrimPart, TrimParts};
 pub use trim_shapes::TrimShapes;
 pub use trims::GarmentTrims;
+pub use wedges::Wedges;

@@ -2,10 +2,10 @@
 
 use glam::{DVec2, DVec3};
 
-use crate::cloth::{ClothState, Corner, Garment, TrimPart};
+use crate::cloth::{ClothState, Corner, Garment, TrimPart, Wedges};
 use crate::geometry::ids::PieceId;
 use crate::io::materials::{ClothMaterial, Colours, Textures};
-use crate::io::wedges::{Normals, Wedges};
+use crate::io::normals::{Normals, wedges_of_piece};
 use crate::pattern::Pattern;
 
 /// A garment with its current vertex positions.
@@ -73,7 +73,7 @@ impl PieceArrays {
         textures: Option<&Textures>,
     ) -> Self {
         let Dressed { garment, state, pattern, trims: _ } = dressed;
-        let own = wedges.of_piece(garment, piece);
+        let own = wedges_of_piece(wedges, garment, piece);
         let corners: Vec<Corner> =
             own.iter().map(|wedge| garment.corners[wedges.corners[wedge] as usize]).collect();
         let pose = pattern.pieces.get(&piece).map(|p| p.pose).unwrap_or_default();

@@ -7,7 +7,7 @@
 //! | `rul` | grade rule tables, beside `dxf` |
 //! | `pattern_file` | the result of reading a pattern, and its errors |
 //! | `body_file` | the body formats: `obj`, `gltf`; `moving_body`, `bvh`, `joints` are their motion, `sizes` their measurements |
-//! | `obj`, `mtl`, `glb`, `usd` | dressed cloth and its trims written (`dressed`), with its `materials` and their textures (`atlas`); their normals (`wedges`); `cloth_obj` cloth read |
+//! | `obj`, `mtl`, `glb`, `usd` | dressed cloth and its trims written (`dressed`), with its `materials` and their textures (`atlas`); their `normals`; `cloth_obj` cloth read |
 //! | `cloth_sheet` | the cloth that a marker is drawn on, for `svg`, `dxf` and `pdf` |
 //! | `trace`, `polygon`, `sheet`, `scale` | shared by drawings: making pieces of lines, finding the unit of length |
 //! | `picture` | PNG and JPEG; `environment`: light from all sides, also Radiance HDR |
@@ -30,6 +30,7 @@ pub mod limits;
 pub mod materials;
 pub mod moving_body;
 pub mod mtl;
+mod normals;
 pub mod obj;
 pub mod pattern_file;
 pub mod pattern_formats;
@@ -43,7 +44,6 @@ pub mod sizes;
 pub mod svg;
 mod trace;
 pub mod usd;
-mod wedges;
 pub mod words;
 pub mod written;
 

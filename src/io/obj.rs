@@ -8,15 +8,15 @@ use std::fmt::Write as _;
 
 use glam::DVec3;
 
-use crate::cloth::{ClothState, Garment};
+use crate::cloth::{ClothState, Garment, Wedges};
 use crate::geometry::mesh::TriMesh;
 use crate::geometry::words::{Words, within_quotes, words};
 use crate::io::Limits;
 use crate::io::atlas::Atlas;
 use crate::io::dressed::{Dressed, TrimArrays};
 use crate::io::mtl::MaterialFile;
+use crate::io::normals::Normals;
 use crate::io::polygon;
-use crate::io::wedges::{Normals, Wedges};
 use crate::io::words::line;
 use crate::pattern::Pattern;
 

@@ -262,8 +262,8 @@ fn vertices(mesh: &Mesh) -> Vec<Vertex> {
         .collect()
 }
 
-/// Writes texture coordinates into `vertices`. A vertex with several, as on a seam, is duplicated; returns the vertices and the
-/// triangles that use them.
+/// Writes texture coordinates into `vertices`. A vertex with several, as on a seam, or with several wedges, as on a fold line, is
+/// duplicated; returns the vertices and the triangles that use them.
 fn flat_vertices(
     mesh: &Mesh,
     mut vertices: Vec<Vertex>,
@@ -275,20 +275,23 @@ fn flat_vertices(
     // Next duplicate of each vertex, and whether its coordinates are set.
     let mut next: Vec<u32> = vec![u32::MAX; vertices.len()];
     let mut is_set = vec![false; vertices.len()];
-    for (triangle, flat) in triangles.iter_mut().zip(&mesh.flat) {
-        for (corner, &place) in triangle.iter_mut().zip(flat) {
+    let mut wedges: Vec<u32> = vec![0; vertices.len()];
+    for (t, (triangle, flat)) in triangles.iter_mut().zip(&mesh.flat).enumerate() {
+        let own = mesh.wedges.get(t).copied().unwrap_or_default();
+        for ((corner, &place), wedge) in triangle.iter_mut().zip(flat).zip(own) {
             let mut v = *corner as usize;
-            while is_set[v] && vertices[v].flat != place && next[v] != u32::MAX {
+            while is_set[v] && (vertices[v].flat, wedges[v]) != (place, wedge) && next[v] != u32::MAX {
                 v = next[v] as usize;
             }
-            if is_set[v] && vertices[v].flat != place {
+            if is_set[v] && (vertices[v].flat, wedges[v]) != (place, wedge) {
                 let twin = vertices.len();
                 vertices.push(vertices[v]);
                 (next[v], v) = (twin as u32, twin);
                 next.push(u32::MAX);
                 is_set.push(false);
+                wedges.push(wedge);
             }
-            (vertices[v].flat, is_set[v], *corner) = (place, true, v as u32);
+            (vertices[v].flat, wedges[v], is_set[v], *corner) = (place, wedge, true, v as u32);
         }
     }
     let first_twin = mesh.positions.len();
@@ -298,10 +301,11 @@ fn flat_vertices(
     (vertices, triangles)
 }
 
-/// Cosine of the angle between the normal of a vertex on a seam and that of one of its sides beyond which the seam is a sharp fold.
+/// Cosine of the angle between the normal of a vertex on a seam or a fold line and that of one of its sides beyond which it is a sharp
+/// fold.
 const SHARP: f32 = 0.5;
 
-/// Gives the vertices that `is_shared` by the sides of a seam the normals of their own sides where they are on a sharp fold, as of a
+/// Gives the vertices that `is_shared` by the sides of a seam or a fold line the normals of their own sides where they are on a sharp fold, as of a
 /// turn-up: those of both sides cancel each other out there.
 fn part_normals(vertices: &mut [Vertex], triangles: &[[u32; 3]], is_shared: &[bool]) {
     let mut own = vec![Vec3::ZERO; vertices.len()];
@@ -362,6 +366,28 @@ mod tests {
         let flat: Vec<Vec2> = triangles.iter().flatten().map(|&v| vertices[v as usize].flat).collect();
         assert_eq!(flat, mesh.flat.concat());
         assert!(vertices[4].position == Vec3::X && vertices[5].position == Vec3::ONE);
+    }
+
+    #[test]
+    fn a_fold_line_within_a_piece_parts_normals_as_a_seam_does() {
+        for (angle, is_parted) in [(60.0, false), (150.0, true)] {
+            let seam = hinged(angle);
+            let [a, b, c] = seam.flat[0];
+            let fold = Mesh {
+                flat: vec![[a, b, c], [b, a, c]],
+                wedges: vec![[0, 1, 2], [5, 4, 3]],
+                ..hinged(angle)
+            };
+            let smooth = Mesh { wedges: Vec::new(), ..fold.clone() };
+            let made = |mesh: &Mesh| flat_vertices(mesh, vertices(mesh), mesh.triangles.clone());
+            let normals = |mesh: &Mesh| -> Vec<Vec3> {
+                let (vertices, triangles) = made(mesh);
+                triangles.iter().flatten().map(|&v| vertices[v as usize].normal).collect()
+            };
+            assert_eq!(normals(&fold), normals(&seam), "{angle}");
+            assert_eq!(normals(&fold) != normals(&smooth), is_parted, "{angle}");
+            assert_eq!([made(&fold).0.len(), made(&smooth).0.len()], [6, 4]);
+        }
     }
 
     /// Two triangles that share an edge; the second is turned by `angle` degrees out of the plane of the first.

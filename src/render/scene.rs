@@ -32,6 +32,9 @@ pub struct Mesh {
     pub covered: bool,
     /// Texture coordinates of the corners of each triangle: places in the flat cloth, metres, y along the grain. Empty: no texture.
     pub flat: Vec<[Vec2; 3]>,
+    /// For each triangle a number for each corner: corners of a vertex with different ones have normals of their own where the mesh is
+    /// folded sharply, as the sides of a seam have, which have different texture coordinates. Empty: all have the same.
+    pub wedges: Vec<[u32; 3]>,
     /// Surface of the cloth; its weave needs `flat`.
     pub textile: Textile,
     /// Pictures on the cloth, the last on top; at most [`MOST_DECALS`](super::decal::MOST_DECALS) are drawn. They need `flat`.

@@ -13,11 +13,11 @@ use gltf_json::validation::Checked;
 use gltf_json::{Accessor, Index};
 
 use super::{Builder, GlbError, accessor};
-use crate::cloth::ClothState;
+use crate::cloth::{ClothState, Wedges};
 use crate::geometry::mesh::{TriMesh, vertex_normals};
 use crate::io::dressed::{Dressed, Frame, PieceArrays, TrimArrays};
 use crate::io::materials::Colours;
-use crate::io::wedges::{Normals, Wedges};
+use crate::io::normals::Normals;
 
 /// Approximate number of bytes that one frame adds to the file; trims count as the body does.
 pub fn bytes_per_frame(cloth_vertices: usize, body_vertices: usize) -> usize {

@@ -16,12 +16,13 @@ use gltf_json::validation::{Checked, USize64};
 use gltf_json::{Accessor, Asset, Index, Node, Root, Scene, Texture};
 use images::Map;
 
+use crate::cloth::Wedges;
 use crate::geometry::ids::PieceId;
 use crate::geometry::mesh::TriMesh;
 use crate::geometry::words::{Words, words};
 use crate::io::dressed::{Dressed, PieceArrays, TrimArrays};
 use crate::io::materials::{ClothMaterial, ClothTextures, Colours, ROUGHNESS, Textures};
-use crate::io::wedges::{Normals, Wedges};
+use crate::io::normals::Normals;
 
 /// Why no file was written.
 #[derive(Debug, thiserror::Error)]

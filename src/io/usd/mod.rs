@@ -14,12 +14,12 @@ use std::sync::Arc;
 
 use glam::DVec3;
 
-use crate::cloth::ClothState;
+use crate::cloth::{ClothState, Wedges};
 use crate::geometry::mesh::{TriMesh, vertex_normals};
 use crate::geometry::words::{Words, words};
 use crate::io::dressed::{Dressed, Frame, PieceArrays, TrimArrays};
 use crate::io::materials::{ClothMaterial, Colours, ROUGHNESS};
-use crate::io::wedges::{Normals, Wedges};
+use crate::io::normals::{Normals, wedges_of_piece};
 use meshes::{MeshArrays, MovedMesh};
 use names::Names;
 use prim::{Prim, quoted};
@@ -201,7 +201,7 @@ impl<'a> Builder<'a> {
             if piece.triangles.is_empty() {
                 continue;
             }
-            let own = wedges.of_piece(garment, *id);
+            let own = wedges_of_piece(&wedges, garment, *id);
             let vertex = |wedge: usize| garment.corners[wedges.corners[wedge] as usize].vertex as usize;
             let of = |(frame, normals): (&Frame, &Normals)| {
                 let positions = own.iter().map(|wedge| frame.cloth[vertex(wedge)]).collect();

@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use std::ops::Range;
 use std::sync::Arc;
 
-use crate::cloth::{ClothState, Garment};
+use crate::cloth::{ClothState, Garment, Wedges};
 use crate::geometry::ids::PieceId;
 use crate::pattern::activity::Activity;
 use crate::render::{Mesh, Rgb, Textile, cloth_front};
@@ -52,7 +52,13 @@ pub fn parted(
     }
     groups.retain(|(group, triangles)| !group.activity.is_deactivated() && !triangles.is_empty());
     groups.sort_by_key(|(group, _)| (group.activity != Activity::Active, group.layer));
-    groups.into_iter().map(|(group, triangles)| part(&whole, garment, &triangles, group)).collect()
+    // Without fold lines the sides of seams are all that is parted.
+    let wedges = (!garment.trims.folds.is_empty()).then(|| Wedges::new(garment).triangles);
+    let mesh = |(group, triangles): (Group<'_>, Vec<usize>)| {
+        let own = wedges.as_ref().map(|wedges| triangles.iter().map(|&t| wedges[t]).collect());
+        Mesh { wedges: own.unwrap_or_default(), ..part(&whole, garment, &triangles, group) }
+    };
+    groups.into_iter().map(mesh).collect()
 }
 
 /// A mesh without triangles in the colours that `piece` has among the parts of `whole`; None: it is deactivated.

@@ -1,12 +1,10 @@
-//! Wedges of cloth: its flat corners, split where fold lines run through them within a piece, so that the sides of a pressed fold can
-//! have normals of their own as the sides of a seam have.
+//! Normals of cloth for files, which the sides of seams and of fold lines have of their own where they are folded sharply.
 
-use std::collections::{BTreeMap, BTreeSet};
 use std::ops::Range;
 
 use glam::DVec3;
 
-use crate::cloth::Garment;
+use crate::cloth::{Garment, Wedges};
 use crate::geometry::ids::PieceId;
 use crate::geometry::mesh::vertex_normals;
 
@@ -14,54 +12,14 @@ use crate::geometry::mesh::vertex_normals;
 /// fold, as in src/render/buffers.rs.
 const SHARP: f64 = 0.5;
 
-/// The wedges of a garment. They do not depend on its shape.
-#[derive(Clone, Debug)]
-pub(super) struct Wedges {
-    /// The flat corner that each belongs to: every corner once in their order, then, in the same order, the corners whose triangles
-    /// fold lines part, once for each further part.
-    pub corners: Vec<u32>,
-    /// The three wedges of each triangle of the garment.
-    pub triangles: Vec<[u32; 3]>,
-}
-
-impl Wedges {
-    /// The wedges of `garment`.
-    pub fn new(garment: &Garment) -> Self {
-        let mut corners: Vec<u32> = (0..garment.corners.len() as u32).collect();
-        let mut triangles = garment.triangle_corners.clone();
-        let folds: BTreeSet<[u32; 2]> =
-            garment.trims.folds.iter().map(|fold| ordered(fold.corners)).collect();
-        let mut around: BTreeMap<u32, Vec<usize>> =
-            folds.iter().flatten().map(|&c| (c, Vec::new())).collect();
-        for (t, own) in garment.triangle_corners.iter().enumerate() {
-            for corner in own {
-                if let Some(triangles) = around.get_mut(corner) {
-                    triangles.push(t);
-                }
-            }
-        }
-        for (corner, around) in around {
-            let parts = parts(corner, &around, &garment.triangle_corners, &folds);
-            for part in parts.iter().skip(1) {
-                let wedge = corners.len() as u32;
-                corners.push(corner);
-                for &t in part {
-                    triangles[t].iter_mut().filter(|c| **c == corner).for_each(|c| *c = wedge);
-                }
-            }
-        }
-        Self { corners, triangles }
-    }
-
-    /// The wedges of `piece` of `garment`.
-    pub fn of_piece(&self, garment: &Garment, piece: PieceId) -> PieceWedges {
-        let corner = |first: bool| {
-            garment.corners.partition_point(|c| if first { c.piece < piece } else { c.piece <= piece })
-        };
-        let (own, count) = (corner(true)..corner(false), garment.corners.len());
-        let further = |end: usize| count + self.corners[count..].partition_point(|&c| (c as usize) < end);
-        PieceWedges { further: further(own.start)..further(own.end), own }
-    }
+/// The wedges of `piece` of `garment`, whose wedges are `all`.
+pub(super) fn wedges_of_piece(all: &Wedges, garment: &Garment, piece: PieceId) -> PieceWedges {
+    let corner = |first: bool| {
+        garment.corners.partition_point(|c| if first { c.piece < piece } else { c.piece <= piece })
+    };
+    let (own, count) = (corner(true)..corner(false), garment.corners.len());
+    let further = |end: usize| count + all.corners[count..].partition_point(|&c| (c as usize) < end);
+    PieceWedges { further: further(own.start)..further(own.end), own }
 }
 
 /// The wedges of a piece, which are the vertices of its arrays.
@@ -89,38 +47,6 @@ impl PieceWedges {
         };
         place as u32
     }
-}
-
-fn ordered([a, b]: [u32; 2]) -> [u32; 2] {
-    [a.min(b), a.max(b)]
-}
-
-/// The triangles `around` a corner in parts that are joined by edges that are no `folds`, that of the first triangle first.
-fn parts(
-    corner: u32,
-    around: &[usize],
-    triangles: &[[u32; 3]],
-    folds: &BTreeSet<[u32; 2]>,
-) -> Vec<Vec<usize>> {
-    let is_joined = |a: usize, b: usize| {
-        let is_shared = |c: &&u32| **c != corner && triangles[b].contains(c);
-        triangles[a].iter().filter(is_shared).any(|&c| !folds.contains(&ordered([corner, c])))
-    };
-    let mut left: Vec<usize> = around.to_vec();
-    let mut parts = Vec::new();
-    while !left.is_empty() {
-        let mut part = vec![left.remove(0)];
-        let mut next = 0;
-        while let Some(&t) = part.get(next) {
-            let (joined, others): (Vec<usize>, Vec<usize>) =
-                left.iter().partition(|&&other| is_joined(t, other));
-            part.extend(joined);
-            left = others;
-            next += 1;
-        }
-        parts.push(part);
-    }
-    parts
 }
 
 /// Area-weighted unit normals of cloth; zero where no triangle is on the body.
@@ -231,7 +157,7 @@ mod tests {
             let wedges = Wedges::new(&garment);
             let mut seen = Vec::new();
             for (piece, _) in &garment.pieces {
-                let own = wedges.of_piece(&garment, *piece);
+                let own = wedges_of_piece(&wedges, &garment, *piece);
                 for (place, wedge) in own.iter().enumerate() {
                     assert_eq!(own.place(wedge as u32) as usize, place);
                     assert_eq!(garment.corners[wedges.corners[wedge] as usize].piece, *piece);
