@@ -8,9 +8,9 @@ use crate::cloth::{Garment, Wedges};
 use crate::geometry::ids::PieceId;
 use crate::geometry::mesh::vertex_normals;
 
-/// Cosine of the angle between the normal of a vertex and that of one of its wedges beyond which a seam or a fold line is a sharp
-/// fold, as in src/render/buffers.rs.
-const SHARP: f64 = 0.5;
+/// Cosines of the angle between the normal of a vertex and that of one of its wedges, from which on the wedge has more and more of its
+/// own normal, and beyond which it has it wholly, as in src/render/buffers.rs.
+const SHARP: [f64; 2] = [0.86, 0.5];
 
 /// The wedges of `piece` of `garment`, whose wedges are `all`.
 pub(super) fn wedges_of_piece(all: &Wedges, garment: &Garment, piece: PieceId) -> PieceWedges {
@@ -72,7 +72,9 @@ impl Normals {
         }
         let of_wedge = |(&corner, own): (&u32, DVec3)| {
             let common = vertices[garment.corners[corner as usize].vertex as usize];
-            own.try_normalize().filter(|own| own.dot(common) < SHARP).unwrap_or(common)
+            let Some(own) = own.try_normalize() else { return common };
+            let share = (SHARP[0] - own.dot(common)) / (SHARP[0] - SHARP[1]);
+            if share > 0.0 { common.lerp(own, share.min(1.0)).normalize_or(own) } else { common }
         };
         let wedges = wedges.corners.iter().zip(own).map(of_wedge).collect();
         Self { vertices, wedges }
@@ -97,8 +99,8 @@ mod tests {
 
     #[test]
     fn the_sides_of_a_seam_that_is_folded_sharply_have_normals_of_their_own() {
-        // Up to 60 degrees no side is far enough from the common normal, beyond 120 at least one is.
-        for (angle, is_parted) in [(0.0, false), (60.0, false), (125.0, true), (175.0, true)] {
+        // At 40 degrees no side is far enough from the common normal, beyond 120 at least one is wholly.
+        for (angle, is_parted) in [(0.0, false), (40.0, false), (125.0, true), (175.0, true)] {
             let (_, garment, state) = bent_squares(angle);
             let (wedges, normals) = normals_of(&garment, &state.positions);
             assert_eq!(wedges.triangles, garment.triangle_corners, "no fold line, no further wedges");
@@ -108,12 +110,12 @@ mod tests {
             let on_seam: Vec<usize> = pairs.iter().flatten().map(|&c| c as usize).collect();
             for (i, (corner, normal)) in garment.corners.iter().zip(&normals.wedges).enumerate() {
                 let face = if corner.piece == first { DVec3::Z } else { DVec3::new(sin, 0.0, cos) };
-                assert!(normal.dot(face) > SHARP - 1e-9, "{angle}: {normal} on {face}");
+                assert!(normal.dot(face) > SHARP[1] - 1e-9, "{angle}: {normal} on {face}");
                 assert!(on_seam.contains(&i) || normal.distance(face) < 1e-9, "{angle}: {normal} on {face}");
             }
             assert!(pairs.len() > 3);
             for [a, b] in pairs.iter().map(|pair| pair.map(|c| normals.wedges[c as usize])) {
-                assert_eq!(a.dot(b) < SHARP, is_parted, "{angle}: {a} {b}");
+                assert_eq!(a.dot(b) < SHARP[1], is_parted, "{angle}: {a} {b}");
                 assert_eq!(a != b, is_parted, "{angle}: {a} {b}");
             }
         }
@@ -141,7 +143,7 @@ mod tests {
                 for (&wedge, &corner) in own.iter().zip(corners) {
                     assert_eq!(wedges.corners[wedge as usize], corner);
                     let normal = normals.wedges[wedge as usize];
-                    assert!(!is_inside(corner) || normal.dot(face) > SHARP, "{angle}: {normal} on {face}");
+                    assert!(!is_inside(corner) || normal.dot(face) > SHARP[1], "{angle}: {normal} on {face}");
                 }
             }
             for (further, &corner) in wedges.corners.iter().enumerate().skip(garment.corners.len()) {

@@ -301,12 +301,12 @@ fn flat_vertices(
     (vertices, triangles)
 }
 
-/// Cosine of the angle between the normal of a vertex on a seam or a fold line and that of one of its sides beyond which it is a sharp
-/// fold.
-const SHARP: f32 = 0.5;
+/// Cosines of the angle between the normal of a vertex on a seam or a fold line and that of one of its sides, from which on the side
+/// has more and more of its own normal, and beyond which it has it wholly.
+const SHARP: [f32; 2] = [0.86, 0.5];
 
-/// Gives the vertices that `is_shared` by the sides of a seam or a fold line the normals of their own sides where they are on a sharp fold, as of a
-/// turn-up: those of both sides cancel each other out there.
+/// Gives the vertices that `is_shared` by the sides of a seam or a fold line the normals of their own sides where they are on a sharp
+/// fold, as of a turn-up: those of both sides cancel each other out there.
 fn part_normals(vertices: &mut [Vertex], triangles: &[[u32; 3]], is_shared: &[bool]) {
     let mut own = vec![Vec3::ZERO; vertices.len()];
     for t in triangles {
@@ -315,10 +315,10 @@ fn part_normals(vertices: &mut [Vertex], triangles: &[[u32; 3]], is_shared: &[bo
         t.iter().filter(|&&v| is_shared[v as usize]).for_each(|&v| own[v as usize] += n);
     }
     for (vertex, own) in vertices.iter_mut().zip(own) {
-        if let Some(own) = own.try_normalize()
-            && own.dot(vertex.normal) < SHARP
-        {
-            vertex.normal = own;
+        let Some(own) = own.try_normalize() else { continue };
+        let share = (SHARP[0] - own.dot(vertex.normal)) / (SHARP[0] - SHARP[1]);
+        if share > 0.0 {
+            vertex.normal = vertex.normal.lerp(own, share.min(1.0)).normalize_or(own);
         }
     }
 }

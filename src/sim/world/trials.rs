@@ -16,10 +16,7 @@ use crate::wrap::suggested;
 
 /// Ticks after which a start is judged even if its cloth still moves, unless it is the only one.
 const MOST_TICKS: u32 = 2000;
-/// Most places with faults with which the starts are tried once more, in another mesh: cloth caught in a few folds is a matter of
-/// chance, and of 3 garments of 216 that ended so all had no fault there.
-const FEW: usize = 30;
-/// Edge length of that mesh, in those of the first.
+/// Edge length of the mesh in which starts that are nearly clean are tried once more, in edge lengths of the first.
 const FINER: f64 = 0.9;
 
 /// Judgement of the cloth.
@@ -42,7 +39,7 @@ pub struct Trials {
     /// The starts, the last first.
     order: Vec<Start>,
     left: Vec<Start>,
-    /// Whether they are tried once more, see [`FEW`].
+    /// Whether they are tried once more, in a finer mesh.
     finer: bool,
     now: Start,
     /// Whether [`Trials`] is draping the start, as it does after the wrap of [`Start::Marks`].
@@ -128,9 +125,8 @@ impl Trials {
 
     /// Whether the starts are to be tried once more in a finer mesh.
     fn is_worth_a_finer_mesh(&self) -> bool {
-        let has_few =
-            self.best.as_ref().is_some_and(|(_, best)| (1..=FEW).contains(&self.tried[*best].places));
-        has_few && !self.finer && self.source.relax.skips.allow(Skip::Fine)
+        let is_near = self.best.as_ref().is_some_and(|(_, best)| self.tried[*best].is_nearly_clean());
+        is_near && !self.finer && self.source.relax.skips.allow(Skip::Fine)
     }
 
     /// Begins all starts again, in a finer mesh. What comes of them is carried to the garment's own.
@@ -349,9 +345,9 @@ impl World {
         Self { started: Some(Arc::new(started)), ..Arc::unwrap_or_clone(draped) }
     }
 
-    /// The next start where `ended`, in the garment's own mesh, has faults in a few places; None where it is to be taken.
+    /// The next start where `ended`, in the garment's own mesh, is only nearly clean; None where it is to be taken.
     fn after_faulty(trials: &mut Trials, ended: &Self) -> Option<Self> {
-        let started = ended.started.as_ref().filter(|s| (1..=FEW).contains(&s.taken().places))?;
+        let started = ended.started.as_ref().filter(|s| s.taken().is_nearly_clean())?;
         trials.tried.clone_from(&started.tried);
         trials.best = Some((Arc::new(Self { started: None, ..ended.clone() }), started.taken));
         (trials.refinement, trials.coarse) = (Refinement::First, None);
@@ -511,9 +507,9 @@ mod tests {
             World { started: Some(Arc::new(Started { tried: vec![tried], taken: 0 })), ..World::default() }
         };
         trials.left.clear();
-        assert!(World::after_faulty(&mut trials, &ended(FEW + 1)).is_none());
+        assert!(World::after_faulty(&mut trials, &ended(Tried::FEW + 1)).is_none());
         let own = trials.source.edge_length;
-        assert!(World::after_faulty(&mut trials, &ended(FEW)).is_some());
+        assert!(World::after_faulty(&mut trials, &ended(Tried::FEW)).is_some());
         assert!(trials.finer && trials.source.edge_length == own * FINER && trials.tried.len() == 1);
         trials.left.clear();
         assert!(World::after_faulty(&mut trials, &ended(1)).is_none(), "once is enough");
@@ -540,9 +536,9 @@ mod tests {
         let own = trials.source.edge_length;
         trials.left.clear();
         let crosses = || vec![Words::plain("it crosses itself")];
-        trials.note(world.clone(), crosses(), FEW + 1);
+        trials.note(world.clone(), crosses(), Tried::FEW + 1);
         assert!(World::next_start(&mut trials).is_none(), "many places are no chance");
-        trials.note(world, crosses(), FEW);
+        trials.note(world, crosses(), Tried::FEW);
         let world = World::next_start(&mut trials).expect("once more");
         assert_eq!((trials.fine, trials.source.edge_length), (Some(own), own * FINER));
         let mut world = rested(world);
@@ -562,6 +558,7 @@ mod tests {
         trials.best = Some((Arc::default(), 0));
         trials.tried = started.tried.clone();
         trials.tried[0].places = 1;
+        assert!(trials.tried[0].is_nearly_clean());
         assert!(World::next_start(&mut trials).is_none());
     }
 }
