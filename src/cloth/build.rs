@@ -24,7 +24,7 @@ pub fn build(pattern: &Pattern, edge_length: f64) -> (Garment, Vec<Problem>) {
 pub fn build_again(pattern: &Pattern, edge_length: f64, meshes: &mut Meshes) -> (Garment, Vec<Problem>) {
     let (cut, mut problems) = CutPattern::new(pattern);
     let sampling = sampling(&cut, edge_length, &mut problems);
-    let meshes = meshes.update(&cut, &sampling, edge_length, &mut problems);
+    let meshes = meshes.update(&cut, &sampling, &mut problems);
     let mut garment = sewn(pattern, &cut, &meshes, &sampling.seams);
     garment.trims.buttons = buttons(pattern, &garment, &mut problems);
     report_twisted(pattern, &garment, &mut problems);

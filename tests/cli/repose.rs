@@ -66,7 +66,15 @@ fn cloth_that_was_draped_may_fold_after_it_was_saved_too() {
     };
     assert_ne!(folds("out"), 0, "this test needs folds");
     let contact = &place.json("out/report.json")["counters"]["contact"];
-    for counter in ["detections", "pairs", "planes", "truncated_vertices", "smallest_distance_nm"] {
+    for counter in [
+        "detections",
+        "searches",
+        "neighbours",
+        "pairs",
+        "planes",
+        "truncated_vertices",
+        "smallest_distance_nm",
+    ] {
         assert!(contact[counter].as_u64().is_some_and(|count| count > 0), "{counter}: {contact}");
     }
     place.ends(0, "repose draped.toile --pose a --save again.toile --out same");

@@ -98,6 +98,10 @@ pub struct Separation {
 pub struct Counters {
     /// Number of detections.
     pub detections: u64,
+    /// Number of detections for which the trees were searched; for the others the pairs were known.
+    pub searches: u64,
+    /// Groups of features of neighbouring triangles that were not known to be too far apart.
+    pub neighbours: u64,
     /// Pairs of features tested.
     pub pairs: u64,
     /// Separating planes made, counted for each vertex.
@@ -113,6 +117,8 @@ impl Counters {
     pub fn and(self, other: Self) -> Self {
         Self {
             detections: self.detections + other.detections,
+            searches: self.searches + other.searches,
+            neighbours: self.neighbours + other.neighbours,
             pairs: self.pairs + other.pairs,
             planes: self.planes + other.planes,
             truncated_vertices: self.truncated_vertices + other.truncated_vertices,
@@ -207,7 +213,9 @@ impl Separation {
         let boxes: Vec<Aabb> = self.placed.par_iter().with_min_len(LEAST_SHARE).map(box_of).collect();
         let obstacle = self.obstacle.as_deref().map(|obstacle| &obstacle.broad);
         let (placed, beside) = (&self.placed, &self.beside);
-        self.candidates.fit(&boxes, |t| placed[t].farthest, obstacle, |s, t| beside.are(s, t));
+        let is_searched =
+            self.candidates.fit(&boxes, |t| placed[t].farthest, obstacle, |s, t| beside.are(s, t));
+        self.counters.searches += u64::from(is_searched);
         let crossings = if self.is_clean { Crossings::default() } else { Crossings::found(self, is_inside) };
         self.beside.see(&self.placed);
         let found = self.gathered(&crossings);
@@ -216,6 +224,7 @@ impl Separation {
         self.crossings = crossings.count();
         self.is_clean = crossings.is_none() && found.iter().all(|found| found.touching == 0);
         self.counters.detections += 1;
+        self.counters.neighbours += groups;
         self.counters.pairs += found.iter().map(|found| found.looked_at).sum::<u64>();
         let nearest = found.iter().filter_map(|found| found.nearest).reduce(f64::min);
         self.counters.smallest_distance_nm = nearest.map(|metres| (metres * 1e9) as u64);

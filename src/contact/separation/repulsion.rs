@@ -4,6 +4,7 @@ use glam::DVec3;
 
 use crate::contact::separation::features::{self, Seen};
 use crate::contact::separation::{Found, Separation};
+use crate::geometry::adjacency::Lists;
 
 /// Thickness of features joined by an edge, as a fraction of that edge's rest length. A triangle with an angle of 30°
 /// has half of a side as its height, and half of that avoids that the triangulation itself holds features apart.
@@ -43,10 +44,10 @@ pub struct Touch<'a> {
 /// Rest lengths of the edges between sewn vertices, found by their ends.
 #[derive(Clone, Debug, Default)]
 pub(super) struct RestLengths {
-    /// For each name the index in `ends` of its first edge; then their number.
-    starts: Vec<u32>,
-    /// The larger name at the end of each edge, and its rest length, metres; of several edges the shortest counts.
-    ends: Vec<(u32, f64)>,
+    /// For each name the larger names that edges lead to from it.
+    larger: Lists,
+    /// The lengths of these edges in the order of the items, metres; of several between the same names the shortest counts.
+    lengths: Vec<f64>,
 }
 
 impl RestLengths {
@@ -58,20 +59,18 @@ impl RestLengths {
         all.sort_by(|(a, l), (b, k)| a.cmp(b).then(l.total_cmp(k)));
         all.dedup_by_key(|(edge, _)| *edge);
         let count = all.iter().map(|([_, larger], _)| *larger as usize + 1).max().unwrap_or(0);
-        let mut starts = vec![0; count + 1];
-        all.iter().for_each(|([smaller, _], _)| starts[*smaller as usize + 1] += 1);
-        (0..count).for_each(|v| starts[v + 1] += starts[v]);
-        Self { starts, ends: all.into_iter().map(|([_, larger], length)| (larger, length)).collect() }
+        let larger = Lists::grouped(count, all.iter().map(|([smaller, larger], _)| (*smaller, *larger)));
+        Self { larger, lengths: all.into_iter().map(|(_, length)| length).collect() }
     }
 
     /// Rest length of the edge between two names, metres; infinite where there is none.
     fn between(&self, a: u32, b: u32) -> f64 {
-        let (smaller, larger) = (a.min(b) as usize, a.max(b));
-        let [Some(&from), Some(&to)] = [self.starts.get(smaller), self.starts.get(smaller + 1)] else {
+        let (smaller, larger) = (a.min(b), a.max(b));
+        if smaller as usize >= self.larger.len() {
             return f64::INFINITY;
-        };
-        let of_edge = self.ends[from as usize..to as usize].iter().find(|(end, _)| *end == larger);
-        of_edge.map_or(f64::INFINITY, |(_, length)| *length)
+        }
+        let at = self.larger.of(smaller).iter().position(|&end| end == larger);
+        at.map_or(f64::INFINITY, |at| self.lengths[self.larger.places(smaller).start + at])
     }
 }
 

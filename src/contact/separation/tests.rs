@@ -78,29 +78,66 @@ fn brute(this: &Separation) -> Vec<(u32, [f64; 4])> {
     sorted(found.planes.into_iter())
 }
 
-#[test]
-fn the_planes_are_those_of_all_pairs_of_features() {
+/// The planes of each vertex after a detection, sorted.
+fn planes_of(this: &Separation) -> Vec<(u32, [f64; 4])> {
+    let own = |v: usize| this.starts[v] as usize..this.starts[v + 1] as usize;
+    let all =
+        (0..this.anchors.len()).flat_map(|v| this.planes[own(v)].iter().map(move |plane| (v as u32, *plane)));
+    sorted(all)
+}
+
+/// Places of two sheets, one above the other, and their separation from each other and from a third below them: as they are, and with
+/// the last column of the lower one sewn to the one before it.
+fn stacked() -> (Vec<DVec3>, [Separation; 2]) {
     let (x, triangles) = sheets(9, 0.0);
     let (below, under) = sheets(9, -0.004);
     let adjacency = Adjacency::new(x.len(), &triangles);
     let obstacle = Arc::new(Obstacle::new(&below, &under, &Adjacency::new(below.len(), &under)));
     let rest: Vec<f64> =
         adjacency.edges.iter().map(|e| x[e[0] as usize].distance(x[e[1] as usize])).collect();
-    // The last column of the lower sheet will be sewn to the one before it.
     let names = (0..x.len() as u32).map(|v| if v < 100 && v % 10 == 9 { v - 1 } else { v }).collect();
-    for names in [None, Some(names)] {
-        let made = (&rest[..], 0.001);
-        let mut this = Separation::new(&triangles, &adjacency, made, names, Some(Arc::clone(&obstacle)));
+    let made = [None, Some(names)].map(|names| {
+        Separation::new(&triangles, &adjacency, (&rest, 0.001), names, Some(Arc::clone(&obstacle)))
+    });
+    (x, made)
+}
+
+#[test]
+fn the_planes_are_those_of_all_pairs_of_features() {
+    let (x, made) = stacked();
+    for mut this in made {
         for reach in [5e-4, 0.003, 0.012] {
             this.detect(&x, |v| reach * (0.5 + 0.5 * (v % 3) as f64), |_| false);
             assert_eq!(this.crossings(), 0);
-            let own = (0..x.len()).flat_map(|v| {
-                let planes = this.starts[v] as usize..this.starts[v + 1] as usize;
-                this.planes[planes].iter().map(move |plane| (v as u32, *plane))
-            });
-            let (found, all) = (sorted(own), brute(&this));
+            let (found, all) = (planes_of(&this), brute(&this));
             assert!(reach < 0.001 || found.len() > 1000, "{reach}: {}", found.len());
             assert!(are_same(&found, &all), "{reach}: {} planes, of all pairs {}", found.len(), all.len());
         }
+    }
+}
+
+#[test]
+fn planes_of_later_detections_are_those_of_all_pairs_too() {
+    let (start, made) = stacked();
+    for mut this in made {
+        let mut x = start.clone();
+        let mut looked_at = Vec::new();
+        for step in 0..16 {
+            // The cloth bends, slides and is crumpled a little.
+            for (v, x) in x.iter_mut().enumerate() {
+                *x += DVec3::new(1e-4, 2e-4 * (x.z * 60.0).sin(), 5e-5 * ((v * 31 + step * 17) % 7) as f64);
+            }
+            let before = this.counters.neighbours;
+            this.detect(&x, |v| 5e-4 * (1.0 + (v % 3) as f64), |_| false);
+            looked_at.push(this.counters.neighbours - before);
+            let (found, all) = (planes_of(&this), brute(&this));
+            assert!(found.len() > 100, "{step}: {}", found.len());
+            assert!(are_same(&found, &all), "{step}: {} planes, of all pairs {}", found.len(), all.len());
+        }
+        assert!(
+            looked_at.iter().any(|groups| groups + 500 < looked_at[0]),
+            "all are looked at: {looked_at:?}"
+        );
+        assert!((1..16).contains(&this.counters.searches), "{:?}", this.counters);
     }
 }
