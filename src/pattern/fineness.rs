@@ -3,14 +3,14 @@
 use glam::DVec2;
 
 use crate::geometry::polygon::sides;
-use crate::pattern::{Fold, Piece, curve};
+use crate::pattern::{EdgeShape, Fold, Piece, curve};
 
 /// Rows of triangles across a part that is folded over. With one row it has no points but those of its two borders, and passes
 /// through the cloth under it in between. More rows turn over less surely while they are sewn.
 const ROWS: f64 = 2.0;
 /// Least edge length that a fold asks for, metres.
 const FINEST: f64 = 0.004;
-/// Part of a piece that must be folded over for the whole piece to be meshed finer.
+/// Share of a piece that must be folded over for the whole piece to be meshed finer.
 const WORTH: f64 = 0.25;
 /// Places along a fold at which the width beside it is measured.
 const PLACES: usize = 5;
@@ -19,9 +19,7 @@ const CHORDS: f64 = 1e-3;
 
 /// The length of the edges of the mesh of `piece`, metres: `edge_length`, or less where a narrow part is folded over.
 pub fn edge_length_of(piece: &Piece, edge_length: f64) -> f64 {
-    let outline = piece.flattened(CHORDS);
-    let area = piece.signed_area().abs();
-    let folds = (0..piece.edge_count()).filter(|&i| turns_over(piece.edge(i).trims.fold)).map(|i| {
+    let outline = (0..piece.edge_count()).filter(|&i| turns_over(piece.edge(i).trims.fold)).map(|i| {
         let (from, to) = piece.edge_ends(i);
         (from, piece.edge(i).shape, to)
     });
@@ -29,12 +27,20 @@ pub fn edge_length_of(piece: &Piece, edge_length: f64) -> f64 {
         let creased = (0..line.edges.len()).filter(|&i| turns_over(line.edges[i].trims.fold));
         creased.map(|i| (line.edges[i].start, line.edges[i].shape, line.edge_end(i)))
     });
-    let needed = folds.chain(lines).filter_map(|(from, shape, to)| {
-        let width = width_beside(&outline, &fold_places(from, shape, to))?;
-        let long = curve::exact_length(from, shape, to);
-        (width * long >= WORTH * area).then_some((width / ROWS).max(FINEST))
-    });
-    needed.fold(edge_length, f64::min)
+    let mut folds = outline.chain(lines).peekable();
+    if folds.peek().is_none() {
+        return edge_length;
+    }
+    let outline = piece.flattened(CHORDS);
+    let (mut narrowest, mut folded) = (f64::INFINITY, 0.0);
+    for (from, shape, to) in folds {
+        if let Some(width) = width_beside(&outline, &fold_places(from, shape, to)) {
+            narrowest = narrowest.min(width);
+            folded += width * curve::exact_length(from, shape, to);
+        }
+    }
+    let is_worth = folded >= WORTH * piece.signed_area().abs();
+    if is_worth { edge_length.min((narrowest / ROWS).max(FINEST)) } else { edge_length }
 }
 
 fn turns_over(fold: Option<Fold>) -> bool {
@@ -42,7 +48,7 @@ fn turns_over(fold: Option<Fold>) -> bool {
 }
 
 /// Places in the middle of equal parts of a fold, each with the unit vector along it.
-fn fold_places(from: DVec2, shape: crate::pattern::EdgeShape, to: DVec2) -> Vec<(DVec2, DVec2)> {
+fn fold_places(from: DVec2, shape: EdgeShape, to: DVec2) -> Vec<(DVec2, DVec2)> {
     let fractions: Vec<f64> = (0..=2 * PLACES).map(|k| k as f64 / (2 * PLACES) as f64).collect();
     let mut points = curve::points(from, shape, to, &fractions[..2 * PLACES]);
     points.push(to);
@@ -94,6 +100,12 @@ mod tests {
         assert_eq!(edge_length_of(&strip(0.03, None), 0.03), 0.03, "nor does this");
         assert_eq!(edge_length_of(&strip(0.12, Some(3.0)), 0.03), 0.03, "wide enough");
         assert_eq!(edge_length_of(&strip(0.006, Some(3.0)), 0.03), FINEST);
+        // As where several pieces are sewn to it.
+        let mut cut = strip(0.03, Some(3.0));
+        let of_fold = cut.outline[0].clone();
+        let parts = (1..8).map(|k| Edge { start: DVec2::new(0.05 * f64::from(k), 0.0), ..of_fold.clone() });
+        cut.outline.splice(1..1, parts);
+        assert!((edge_length_of(&cut, 0.03) - 0.015).abs() < 1e-12);
     }
 
     #[test]

@@ -14,6 +14,8 @@ const SHORTEST_EDGE: f64 = 1e-5;
 
 /// The number of intervals of each edge, and the seams that can be sewn.
 pub struct Sampling {
+    /// For each piece the length of the edges of its mesh, about, metres.
+    pub edge_lengths: BTreeMap<PieceId, f64>,
     /// For each piece and edge the number of intervals, at least 1.
     pub intervals: BTreeMap<PieceId, Vec<usize>>,
     /// Seams whose two edges exist and are in no other seam, in the order of their ids.
@@ -29,10 +31,11 @@ pub fn sampling(pattern: &CutPattern, edge_length: f64, problems: &mut Vec<Probl
         .map(|(&id, piece)| (id, (0..piece.edge_count()).map(|i| piece.edge_length(i)).collect()))
         .collect();
     report_short_edges(pattern, &lengths, problems);
+    let edge_lengths: BTreeMap<PieceId, f64> =
+        pattern.pieces.iter().map(|(&id, piece)| (id, edge_length_of(piece, edge_length))).collect();
     let mut intervals: BTreeMap<PieceId, Vec<usize>> = BTreeMap::new();
     for (&id, of_piece) in &lengths {
-        let spacing = edge_length_of(&pattern.pieces[&id], edge_length);
-        let count = |length: &f64| ((length / spacing).round() as usize).max(1);
+        let count = |length: &f64| ((length / edge_lengths[&id]).round() as usize).max(1);
         intervals.insert(id, of_piece.iter().map(count).collect());
     }
     let seams = sound_seams(pattern, &lengths, problems);
@@ -45,7 +48,7 @@ pub fn sampling(pattern: &CutPattern, edge_length: f64, problems: &mut Vec<Probl
         }
     }
     report_unsewn(pattern, &seams, problems);
-    Sampling { intervals, seams }
+    Sampling { edge_lengths, intervals, seams }
 }
 
 fn report_short_edges(

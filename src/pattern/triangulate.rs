@@ -10,7 +10,6 @@ use crate::geometry::ids::PieceId;
 use crate::geometry::polygon::{contains, distance_to_segment, first_crossing, is_inside, signed_area};
 use crate::geometry::words::{Words, words};
 use crate::pattern::chains::{Link, links};
-use crate::pattern::fineness::edge_length_of;
 use crate::pattern::sampling::Sampling;
 use crate::pattern::wrinkles::{self, Ridge};
 use crate::pattern::{CutPattern, Edge, EdgeRef, EdgeShape, InternalLine, Piece, Problem, ProblemKind};
@@ -73,28 +72,26 @@ impl Meshes {
         &mut self,
         pattern: &CutPattern,
         sampling: &Sampling,
-        edge_length: f64,
         problems: &mut Vec<Problem>,
     ) -> BTreeMap<PieceId, Arc<PieceMesh>> {
         let before = std::mem::take(&mut self.made);
         self.fresh = 0;
         for (&id, piece) in &pattern.pieces {
-            let intervals = &sampling.intervals[&id];
-            let spacing = edge_length_of(piece, edge_length);
+            let (intervals, edge_length) = (&sampling.intervals[&id], sampling.edge_lengths[&id]);
             let same = |(old, of_edges, of_inside): &Key| {
                 of_edges == intervals
-                    && *of_inside == spacing
+                    && *of_inside == edge_length
                     && (Arc::ptr_eq(old, piece) || is_cut_alike(old, piece))
             };
             let kept = before.get(&id).filter(|(key, _)| same(key));
             let mesh = match kept {
                 Some((_, mesh)) => Ok(Arc::clone(mesh)),
-                None => piece_mesh(pattern, id, piece, intervals, spacing).map(Arc::new),
+                None => piece_mesh(pattern, id, piece, intervals, edge_length).map(Arc::new),
             };
             self.fresh += usize::from(kept.is_none());
             match mesh {
                 Ok(mesh) => {
-                    self.made.insert(id, ((Arc::clone(piece), intervals.clone(), spacing), mesh));
+                    self.made.insert(id, ((Arc::clone(piece), intervals.clone(), edge_length), mesh));
                 }
                 Err(problem) => problems.push(problem),
             }
