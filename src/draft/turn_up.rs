@@ -28,28 +28,22 @@ const SEAM: &str = "turn-up seam";
 /// edge called `hem`. Each half of the turn-up is placed outside of its hem, folded up, and sewn to it; then their edges called as one of
 /// `sides`, like the edges that the hem ends at, are sewn.
 pub fn turn_up(garment: &mut Garment, height: f64, halves: [PieceId; 2], hem: &str, sides: [&str; 2]) {
-    let [Some(front), Some(back)] = halves.map(|half| strip(garment, height, half, hem)) else { return };
+    let ends = halves.map(|half| HemEnd::of(garment, half, hem, height));
+    let [Some(front), Some(back)] = &ends else { return };
+    // Trued: edges that are sewn to each other are as long as both on average.
+    let trued = |label: &str| {
+        let both = [front, back].map(|end| end.side_length(label).unwrap_or(height));
+        f64::midpoint(both[0], both[1])
+    };
+    let [front, back] = [front, back].map(|end| end.add_strip(garment, hem, trued));
     garment.sew_alike(&[front.0], &[back.0], &sides, front.1);
 }
 
-/// Drafts, places and sews the turn-up of one half. Returns it, and the direction in which the half ends, as placed. None where
-/// it has no such hem, or is not placed.
-fn strip(garment: &mut Garment, height: f64, half: PieceId, hem: &str) -> Option<(PieceId, DVec3)> {
-    let piece = garment.pattern.pieces.get(&half).map(Arc::clone)?;
-    let edge = piece.outline.iter().position(|edge| edge.label.as_deref() == Some(hem))?;
-    let pose = piece.placement?;
-    let end = HemEnd::of(&piece, edge);
-    let mut strip = end.strip(&piece, edge, height);
-    strip.placement = Some(end.folded_up(pose));
-    let strip = garment.pattern.add_piece(strip);
-    let [along, on] = [end.along, end.on].map(|way| pose.rotation * way.extend(0.0));
-    let runs = [(half, hem), (strip, SEAM)].map(|(piece, label)| garment.run(&[piece], label, along));
-    garment.sew(&runs[0], &runs[1]);
-    Some((strip, on))
-}
-
-/// The end of a piece at its hem, in its own plane.
+/// The end of half of a tube at its hem, and what the turn-up there is like, in the half's own plane.
 struct HemEnd {
+    half: PieceId,
+    piece: Arc<Piece>,
+    pose: SpacePose,
     /// Ends of the hem, in the direction of the outline, metres.
     ends: [DVec2; 2],
     /// Unit direction from the first to the second.
@@ -58,48 +52,83 @@ struct HemEnd {
     on: DVec2,
     /// 1 where the outer side of the piece faces +z of its plane, else -1.
     outer: f64,
+    /// Labels of the edges that the hem ends at.
+    sides: [String; 2],
+    /// How far beside each end of the hem, along it, the free edge ends, metres.
+    aside: [f64; 2],
+    /// Height of the turn-up, metres.
+    height: f64,
 }
 
 impl HemEnd {
-    fn of(piece: &Piece, edge: usize) -> Self {
+    /// None where the half has no such hem, or is not placed.
+    fn of(garment: &Garment, half: PieceId, hem: &str, height: f64) -> Option<Self> {
+        let piece = garment.pattern.pieces.get(&half).map(Arc::clone)?;
+        let edge = piece.outline.iter().position(|edge| edge.label.as_deref() == Some(hem))?;
+        let pose = piece.placement?;
         let (a, b) = piece.edge_ends(edge);
         let along = (b - a).normalize_or(DVec2::X);
         let outer = if piece.signed_area() < 0.0 { -1.0 } else { 1.0 };
-        Self { ends: [a, b], along, on: along.perp() * -outer, outer }
+        let on = along.perp() * -outer;
+        let sides = [(edge + piece.outline.len() - 1) % piece.outline.len(), piece.next_edge(edge)];
+        let lean = |k: usize| lean(&piece, sides[k], [a, b][k], [along, on]) * height;
+        let aside = [lean(0) - EASE, lean(1) + EASE];
+        let sides = sides.map(|side| piece.outline[side].label.clone().unwrap_or_default());
+        Some(Self { half, pose, ends: [a, b], along, on, outer, sides, aside, height, piece })
+    }
+
+    /// Length of the turn-up's edge with this label, metres, at its height.
+    fn side_length(&self, label: &str) -> Option<f64> {
+        let k = self.sides.iter().position(|side| side == label)?;
+        Some(self.height.hypot(self.aside[k]))
+    }
+
+    /// Adds the turn-up, places it and sews it to its hem; `trued` tells the length of the edges with a label, metres. Returns it, and
+    /// the direction in which the half ends, as placed.
+    fn add_strip(&self, garment: &mut Garment, hem: &str, trued: impl Fn(&str) -> f64) -> (PieceId, DVec3) {
+        let strip = Piece { placement: Some(self.folded_up()), ..self.strip(trued) };
+        let strip = garment.pattern.add_piece(strip);
+        let [along, on] = [self.along, self.on].map(|way| self.pose.rotation * way.extend(0.0));
+        let runs =
+            [(self.half, hem), (strip, SEAM)].map(|(piece, label)| garment.run(&[piece], label, along));
+        garment.sew(&runs[0], &runs[1]);
+        (strip, on)
     }
 
     /// The turn-up, with the hem's first end at its origin: the mirror image, at the hem, of the cloth under it.
-    fn strip(&self, piece: &Piece, edge: usize, height: f64) -> Piece {
-        let before = (edge + piece.outline.len() - 1) % piece.outline.len();
-        let sides = [before, piece.next_edge(edge)];
-        let label = |k: usize| piece.outline[sides[k]].label.as_deref().unwrap_or_default();
-        let aside = [0, 1].map(|k| self.lean(piece, sides[k], self.ends[k]) * height);
-        let (across, on) = (self.ends[1] - self.ends[0], self.on * height);
+    fn strip(&self, trued: impl Fn(&str) -> f64) -> Piece {
+        let [first, second] = [0, 1].map(|k| {
+            let (long, aside) = (trued(&self.sides[k]), self.aside[k]);
+            self.on * (long * long - aside * aside).max(0.0).sqrt() + self.along * aside
+        });
+        let across = self.ends[1] - self.ends[0];
         let path = Path::from(across)
             .line(SEAM, DVec2::ZERO)
-            .line(label(0), on + self.along * (aside[0] - EASE))
-            .line("turn-up edge", across + on + self.along * (aside[1] + EASE));
-        let mut strip = path.closed(&format!("{} turn-up", piece.name), label(1));
+            .line(&self.sides[0], first)
+            .line("turn-up edge", across + second);
+        let mut strip = path.closed(&format!("{} turn-up", self.piece.name), &self.sides[1]);
         strip.outline[0].trims.fold = Some(Fold::pressed(TURNED));
-        Piece { label: piece.label.clone(), layer: piece.layer, ..strip }
+        Piece { label: self.piece.label.clone(), layer: self.piece.layer, ..strip }
     }
 
-    /// Lean of the edge `side` where it ends at the point `end` of the hem: length along the hem per length away from it.
-    fn lean(&self, piece: &Piece, side: usize, end: DVec2) -> f64 {
-        let ((from, to), mut line) = (piece.edge_ends(side), Vec::new());
-        curve::flatten(from, piece.outline[side].shape, to, 1e-4, &mut line);
-        line.push(to);
-        let away = line.into_iter().map(|p| p - end).filter(|way| -way.dot(self.on) > NEAR);
-        let way = away.min_by(|a, b| a.length_squared().total_cmp(&b.length_squared()));
-        way.map_or(0.0, |way| way.dot(self.along) / -way.dot(self.on))
-    }
-
-    /// The placement of a turn-up at the hem of a piece that is placed at `pose`, folded up on its outside.
-    fn folded_up(&self, pose: SpacePose) -> SpacePose {
+    /// The placement of the turn-up, folded up on the outside of the half.
+    fn folded_up(&self) -> SpacePose {
+        let pose = self.pose;
         let (on, out) = (self.on.extend(0.0), DVec3::Z * self.outer);
         let at = pose.at(self.ends[0]) + pose.rotation * ((on + out) * GAP);
         SpacePose::flat(at, pose.rotation * DQuat::from_axis_angle(on.cross(out), PLACED))
     }
+}
+
+/// Lean of the edge `side` where it ends at the point `end` of the hem: length along the hem per length away from it. `along` is the
+/// unit vector along the hem, `on` the one in which the cloth would go on.
+fn lean(piece: &Piece, side: usize, end: DVec2, [along, on]: [DVec2; 2]) -> f64 {
+    let ((from, to), mut line) = (piece.edge_ends(side), Vec::new());
+    curve::flatten(from, piece.outline[side].shape, to, 1e-4, &mut line);
+    line.push(to);
+    let away = line.into_iter().map(|p| p - end).filter(|way| -way.dot(on) > NEAR);
+    let way = away.min_by(|a, b| a.length_squared().total_cmp(&b.length_squared()));
+    way.map_or(0.0, |way| way.dot(along) / -way.dot(on))
 }
 
 #[cfg(test)]
@@ -108,7 +137,8 @@ mod tests {
     use crate::body::{Measurements, NamedPose};
     use crate::draft::{Bottom, Design, Form, Kind, Top};
     use crate::geometry::random::Random;
-    use crate::pattern::Pattern;
+    use crate::pattern::sampling::sampling;
+    use crate::pattern::{CutPattern, Pattern};
 
     const HEIGHT: f64 = 0.04;
 
@@ -138,6 +168,10 @@ mod tests {
         assert!(pattern.turns_over_at_a_seam());
         let pairs = turn_ups(&pattern);
         assert_eq!(pairs.len(), 4, "{kind:?}");
+        let (cut, mut problems) = CutPattern::new(&pattern);
+        sampling(&cut, 0.02, &mut problems);
+        let unequal = problems.iter().filter(|problem| problem.place.to_string().contains("turn-up"));
+        assert_eq!(unequal.count(), 0, "{kind:?}: {problems:?}");
         for (strip, half) in pairs {
             let (strip, half) = (&pattern.pieces[&strip], &pattern.pieces[&half]);
             let (own, under) = (strip.placement.expect("placed"), half.placement.expect("placed"));
@@ -158,7 +192,8 @@ mod tests {
             let (a, b) = half.edge_ends(hem);
             let on = under.rotation * ((b - a).perp() * -half.signed_area().signum()).normalize().extend(0.0);
             let back = (own.at(free) - own.at(strip.outline[1].start)).dot(on);
-            assert!(back < -0.99 * HEIGHT, "{}: {back}", strip.name);
+            // Sides that are sewn to each other are trued, which moves a corner by a few millimetres.
+            assert!((back + HEIGHT).abs() < 0.1 * HEIGHT, "{}: {back}", strip.name);
         }
     }
 
