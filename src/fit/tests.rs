@@ -107,7 +107,7 @@ fn an_open_seam_is_named() {
     sleeve.garment.seam_pairs.retain(|(known, _)| *known != id);
     let [a, b] = seam.sides.map(|side| sleeve.pattern.pieces[&side.piece].name.clone());
     let words = words(&report(&sleeve, cylinder(r - 0.01, 0.2, 1.2, 48, 20)));
-    assert!(words.starts_with(&format!("seams: 1 of 2 seams are open: {id} ({a} and {b}); ")), "{words}");
+    assert!(words.starts_with(&format!("seams: 1 of 2 seams are open: {id} ({a} and {b})\n")), "{words}");
 }
 
 #[test]

@@ -104,7 +104,8 @@ impl Faults {
                 count = seams.open + seams.closed,
                 names = Words::joined(named, ", ")
             );
-            let words = words.and("; ", widest(gap));
+            // Seams of pieces that were left out are open without a gap.
+            let words = if gap > 0.0 { words.and("; ", widest(gap)) } else { words };
             self.tell(Spot::Seams, words!("seams"), words);
         }
         let (found, expected) = (report.pieces_in_space, report.pieces_expected);
