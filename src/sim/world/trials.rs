@@ -125,7 +125,15 @@ impl Trials {
 
     /// Whether the starts are to be tried once more in a finer mesh.
     fn is_worth_a_finer_mesh(&self) -> bool {
-        let is_near = self.best.as_ref().is_some_and(|(_, best)| self.tried[*best].is_nearly_clean());
+        // Where the pattern's faults left out pieces their seams stay open in any mesh.
+        let has_all = |world: &World| {
+            let count = world.garment.as_ref().map(|garment| garment.pieces.len());
+            count == Some(self.source.pattern.pieces.len())
+        };
+        let is_near = self
+            .best
+            .as_ref()
+            .is_some_and(|(world, best)| self.tried[*best].is_nearly_clean() && has_all(world));
         is_near && !self.finer && self.source.relax.skips.allow(Skip::Fine)
     }
 
@@ -500,11 +508,11 @@ mod tests {
 
     #[test]
     fn other_starts_follow_where_a_few_places_have_faults_in_the_garments_own_mesh() {
-        let (_, mut trials) = faulty();
+        let (world, mut trials) = faulty();
         let ended = |places: usize| {
             let (faults, ticks) = (vec![Words::plain("it crosses itself")], 9);
             let tried = Tried { start: Start::Marks, draped: true, finer: false, faults, places, ticks };
-            World { started: Some(Arc::new(Started { tried: vec![tried], taken: 0 })), ..World::default() }
+            World { started: Some(Arc::new(Started { tried: vec![tried], taken: 0 })), ..world.clone() }
         };
         trials.left.clear();
         assert!(World::after_faulty(&mut trials, &ended(Tried::FEW + 1)).is_none());
