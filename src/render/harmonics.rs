@@ -204,6 +204,15 @@ fn polynomials(d: DVec3) -> [f64; 9] {
     [1.0, y, z, x, x * y, y * z, 3.0 * z * z - 1.0, x * z, x * x - y * y]
 }
 
+/// So many directions, spread evenly over the sphere.
+fn spread(count: usize) -> impl Iterator<Item = DVec3> {
+    (0..count).map(move |i| {
+        let (y, turn) = (1.0 - (2 * i + 1) as f64 / count as f64, i as f64 * GOLDEN_ANGLE);
+        let away = (1.0 - y * y).sqrt();
+        DVec3::new(away * turn.cos(), y, away * turn.sin())
+    })
+}
+
 /// The least value of the sum of the polynomials times `factors` for unit vectors: from the lowest of directions all round it goes
 /// downhill by power iteration. To rounding, unless two valleys are equally deep, of which either is right.
 fn least(factors: &[f64; 9]) -> f64 {
@@ -217,12 +226,7 @@ fn least(factors: &[f64; 9]) -> f64 {
     );
     // With its Frobenius norm on the diagonal the negated quadratic part is convex, so that no step goes uphill.
     let norm = twice_quadratic.to_cols_array().iter().map(|c| c * c).sum::<f64>().sqrt();
-    let places = (0..PLACES).map(|i| {
-        let (y, turn) = (1.0 - (2 * i + 1) as f64 / PLACES as f64, i as f64 * GOLDEN_ANGLE);
-        let away = (1.0 - y * y).sqrt();
-        DVec3::new(away * turn.cos(), y, away * turn.sin())
-    });
-    let lowest = places.reduce(|a, b| if value(b) < value(a) { b } else { a }).unwrap_or(DVec3::Y);
+    let lowest = spread(PLACES).reduce(|a, b| if value(b) < value(a) { b } else { a }).unwrap_or(DVec3::Y);
     let downhill = |d: DVec3, _: usize| (d * norm - slope - twice_quadratic * d).normalize_or(d);
     value((0..STEPS).fold(lowest, downhill))
 }
@@ -439,11 +443,7 @@ mod tests {
             random[0] = -random[0] * 1.1 + 0.05;
             let value = |d: DVec3| random.iter().zip(polynomials(d)).map(|(f, p)| f * p).sum::<f64>();
             let mut lowest = f64::INFINITY;
-            for i in 0..20_000 {
-                let (y, turn) = (1.0 - (2 * i + 1) as f64 / 20_000.0, i as f64 * GOLDEN_ANGLE);
-                let away = (1.0 - y * y).sqrt();
-                lowest = lowest.min(value(DVec3::new(away * turn.cos(), y, away * turn.sin())));
-            }
+            spread(20_000).for_each(|d| lowest = lowest.min(value(d)));
             let found = least(&random);
             assert!(found <= lowest + 1e-9 && found > lowest - 5e-3, "{found} {lowest}");
         }

@@ -8,7 +8,7 @@ use crate::language::{Table, shown, shown_in};
 use crate::pack::{Pack, Pictures, Source, Wish, no_adapter, write};
 use crate::session::{Document, Outfit};
 use crate::ui::app::App;
-use crate::ui::app::turn::bar_ui;
+use crate::ui::app::turn::progress_bar_ui;
 use crate::ui::files;
 use crate::ui::language::choice::Language;
 use crate::ui::language::pictures::no_picture;
@@ -133,7 +133,7 @@ impl App {
                 Err(words) => self.messages.error(words),
             };
         }
-        if bar_ui(ctx, palette, above, tr("The tech pack is being made"), pack.share()) {
+        if progress_bar_ui(ctx, palette, above, tr("The tech pack is being made"), pack.share()) {
             return self.messages.tell(tr("The tech pack was stopped: nothing is written"));
         }
         // A thread asks for a frame by itself.

@@ -76,7 +76,7 @@ impl App {
             1 => tr("The picture is being drawn").to_owned(),
             _ => say!("Picture {done} of {count}", done, count),
         };
-        if bar_ui(ctx, palette, above, &words, turn.share()) {
+        if progress_bar_ui(ctx, palette, above, &words, turn.share()) {
             return self.messages.tell(match count {
                 1 => tr("The picture was stopped: nothing is written").to_owned(),
                 _ => say!("Stopped after {done} of {count} pictures", done, count),
@@ -105,11 +105,17 @@ impl App {
 
 /// Draws the progress, `done` of `count` pictures, at the bottom of the window, `above` its edge; true when the user stops it.
 pub fn progress_ui(ctx: &egui::Context, palette: &Palette, above: f32, done: usize, count: usize) -> bool {
-    bar_ui(ctx, palette, above, &say!("Picture {done} of {count}", done, count), done as f32 / count as f32)
+    progress_bar_ui(
+        ctx,
+        palette,
+        above,
+        &say!("Picture {done} of {count}", done, count),
+        done as f32 / count as f32,
+    )
 }
 
 /// Draws `words` and a bar, of which `share` (0..=1) is full, at the bottom of the window; true when the user stops it.
-pub fn bar_ui(ctx: &egui::Context, palette: &Palette, above: f32, words: &str, share: f32) -> bool {
+pub fn progress_bar_ui(ctx: &egui::Context, palette: &Palette, above: f32, words: &str, share: f32) -> bool {
     let area = Area::new(Id::unique("pictures")).order(Order::Foreground);
     let shown = area.anchor(Align2::CENTER_BOTTOM, [0.0, -above - 14.0]).show(ctx, |ui| {
         let row = |ui: &mut egui::Ui| {
