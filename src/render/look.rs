@@ -48,8 +48,8 @@ pub struct Look {
 
 /// Front of the cloth: the soft green of paper A's figures.
 pub const CLOTH_FRONT: Rgb = [138, 186, 134];
-/// Back of the cloth: pink.
-pub const CLOTH_BACK: Rgb = [231, 163, 176];
+/// Back of the cloth: a pale green, which no skin has.
+pub const CLOTH_BACK: Rgb = [196, 213, 194];
 /// Fronts of cloth on layers 1, 2, 3 and 4: lake, straw, heather, slate. Further layers repeat them.
 const OVER: [Rgb; 4] = [[128, 166, 200], [218, 190, 128], [182, 152, 192], [150, 158, 166]];
 /// The body: warm plaster.
