@@ -32,11 +32,15 @@ pub fn repose(arguments: &Repose) -> Result<(), Failure> {
     let mut session = run::opened(input.project, &arguments.project)?;
     let mut seconds = Seconds { load: start.seconds(), ..Seconds::default() };
     dress_first(&mut session, arguments, &mut seconds)?;
+    let dressed = session.project();
     let mut first_failure = None;
     for (i, (pose, from)) in poses.into_iter().enumerate() {
         let path = Path::new(&from);
         interrupt::check()?;
         let folder = if several { numbered(&arguments.out, i, path) } else { arguments.out.clone() };
+        if arguments.drape && i > 0 {
+            session = run::opened(dressed.clone(), &arguments.project)?;
+        }
         let name = format!("{} on {}", input.name, files::name_of(path));
         let carried = one(&mut session, pose, path, arguments, seconds.clone());
         let mut report = report::report(&mut session, &name, Some(&arguments.picture), carried?)?;
@@ -138,17 +142,25 @@ fn one(
     mut seconds: Seconds,
 ) -> Result<Seconds, Failure> {
     let start = Instant::now();
-    if session.document().body == pose {
-        return Ok(seconds); // The pose it is in.
+    if session.document().body != pose {
+        carry(session, pose, path, arguments.settle)?;
+        seconds.repose = Some(start.elapsed().as_secs_f64());
+        run::to_rest(session, arguments.max_ticks, &mut seconds)?;
     }
-    let command = Command::Repose { body: pose, settle: arguments.settle, draft: false };
+    if arguments.drape {
+        run::drape(session, path, arguments.max_ticks, &mut seconds)?;
+    }
+    Ok(seconds)
+}
+
+/// Begins to carry the cloth to `pose`.
+fn carry(session: &mut Session, pose: BodyChoice, path: &Path, settle: bool) -> Result<(), Failure> {
+    let command = Command::Repose { body: pose, settle, draft: false };
     session.apply_alone(command).map_err(|why| Failure::input(path, why))?;
     for notice in session.update() {
         if let Notice::Failed { words, .. } = notice {
             return Err(Failure::input(path, words));
         }
     }
-    seconds.repose = Some(start.elapsed().as_secs_f64());
-    run::to_rest(session, arguments.max_ticks, &mut seconds)?;
-    Ok(seconds)
+    Ok(())
 }

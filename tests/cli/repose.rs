@@ -56,6 +56,28 @@ fn cloth_goes_along_with_a_body_that_turns() {
 }
 
 #[test]
+fn draped_in_each_pose_cloth_falls_on_to_the_lap() {
+    let place = Place::new();
+    place.ends(0, "dress sample:gathered-skirt --edge-length 0.04 --save skirt.toile --no-picture --out out");
+    place.ends(0, "repose skirt.toile --pose sitting --pose walking --no-picture --out stiff");
+    place.ends(0, "repose skirt.toile --pose sitting --pose walking --drape --no-picture --out fallen");
+    let height = |file: &str| {
+        let cloth = vertices(&place.read(file));
+        cloth.iter().map(|p| p.y).sum::<f64>() / cloth.len() as f64
+    };
+    for pose in ["00-sitting", "01-walking"] {
+        let [stiff, fallen] =
+            ["stiff", "fallen"].map(|folder| height(&format!("{folder}/{pose}/garment.obj")));
+        assert!(fallen < stiff - 0.005, "{pose}: {fallen} m, carried alone {stiff} m");
+        let report = place.json(&format!("fallen/{pose}/report.json"));
+        assert!(!report["drape"].is_null() && report["at_rest"] == true, "{report}");
+    }
+    assert!(
+        place.run("repose skirt.toile --sequence --drape --body x --out out").contains("cannot be used with")
+    );
+}
+
+#[test]
 fn cloth_that_was_draped_may_fold_after_it_was_saved_too() {
     let place = Place::new();
     place.ends(0, "dress sample:tshirt --edge-length 0.03 --drape --save draped.toile --out out");

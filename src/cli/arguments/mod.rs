@@ -366,6 +366,9 @@ pub struct Repose {
     /// Lets the cloth settle in each pose, with its weight and friction
     #[arg(long)]
     pub settle: bool,
+    /// Drapes the cloth in each pose until it rests: skirts fall on to the lap of a sitting figure
+    #[arg(long, conflicts_with = "sequence", conflicts_with = "motion")]
+    pub drape: bool,
     /// Also writes the project in the pose to this file
     #[arg(long, value_name = "PROJECT")]
     pub save: Option<PathBuf>,
