@@ -5,6 +5,8 @@ use glam::DVec2;
 use crate::geometry::polygon::sides;
 use crate::pattern::{EdgeShape, Fold, Piece, curve};
 
+/// Range of the mesh size that a piece may ask for, metres.
+pub const MESH_SIZES: std::ops::RangeInclusive<f64> = 0.003..=0.1;
 /// Rows of triangles across a part that is folded over. With one row it has no points but those of its two borders, and passes
 /// through the cloth under it in between. More rows turn over less surely while they are sewn.
 const ROWS: f64 = 2.0;
@@ -17,8 +19,10 @@ const PLACES: usize = 5;
 /// Chords by which the outline is flattened, metres.
 const CHORDS: f64 = 1e-3;
 
-/// The length of the edges of the mesh of `piece`, metres: `edge_length`, or less where a narrow part is folded over.
+/// The length of the edges of the mesh of `piece`, metres: `edge_length`, or less where the piece asks for it or a narrow part is folded
+/// over.
 pub fn edge_length_of(piece: &Piece, edge_length: f64) -> f64 {
+    let edge_length = piece.mesh_size.map_or(edge_length, |own| own.min(edge_length));
     let outline = (0..piece.edge_count()).filter(|&i| turns_over(piece.edge(i).trims.fold)).map(|i| {
         let (from, to) = piece.edge_ends(i);
         (from, piece.edge(i).shape, to)

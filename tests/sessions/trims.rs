@@ -166,6 +166,7 @@ fn wrap_skirt() -> Session {
         diameter: 0.015,
         colour: Button::PEARL,
         open: false,
+        tack: false,
     };
     let buttons = [0.03, 0.1, 0.17].map(button).to_vec();
     s.apply_alone(edit(PatternEdit::AddButtons { buttons })).expect("sewn on");

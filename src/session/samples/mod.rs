@@ -3,6 +3,7 @@
 //! Every sample but the creature's cloak is drafted from the mannequin's own measurements, so a sample can be drafted for another body,
 //! too.
 
+mod bow;
 mod creature;
 mod draft;
 mod dress;
@@ -77,6 +78,8 @@ pub enum Sample {
     TurnUps,
     /// A skirt of knife pleats.
     PleatedSkirt,
+    /// A gathered skirt with a bow at its waistband.
+    BowSkirt,
     /// A cape, closed at the throat.
     Cape,
     /// A cloak for a seal.
@@ -85,7 +88,7 @@ pub enum Sample {
 
 impl Sample {
     /// All samples, in the order of the menu.
-    pub const ALL: [Self; 25] = [
+    pub const ALL: [Self; 26] = [
         Self::Tshirt,
         Self::Skirt,
         Self::Dress,
@@ -109,6 +112,7 @@ impl Sample {
         Self::Shirt,
         Self::TurnUps,
         Self::PleatedSkirt,
+        Self::BowSkirt,
         Self::Cape,
         Self::CreatureCloak,
     ];
@@ -142,6 +146,7 @@ impl Sample {
             Self::Shirt => "Shirt",
             Self::TurnUps => "Turn-up shorts",
             Self::PleatedSkirt => "Pleated skirt",
+            Self::BowSkirt => "Skirt with a bow",
             Self::Cape => "Cape",
             Self::CreatureCloak => "Creature's cloak",
         }
@@ -173,6 +178,7 @@ impl Sample {
             Self::Shirt => "shirt",
             Self::TurnUps => "turn-ups",
             Self::PleatedSkirt => "pleated-skirt",
+            Self::BowSkirt => "bow-skirt",
             Self::Cape => "cape",
             Self::CreatureCloak => "creature-cloak",
         }
@@ -199,6 +205,7 @@ impl Sample {
         let document = match self.cut() {
             Cut::Marked(drafted) => marked(drafted, body),
             Cut::Placed(garment) => gallery::document(&garment(), body),
+            Cut::Bowed => bow::skirt(body),
             Cut::Creature(document) => document(),
         };
         Project { document, dressed: None }
@@ -229,6 +236,7 @@ impl Sample {
             Self::Shirt => Cut::Placed(gallery::shirt),
             Self::TurnUps => Cut::Placed(gallery::turn_ups),
             Self::PleatedSkirt => Cut::Placed(gallery::pleated_skirt),
+            Self::BowSkirt => Cut::Bowed,
             Self::Cape => Cut::Placed(gallery::cape),
             Self::CreatureCloak => Cut::Creature(creature::cloak),
         }
@@ -239,6 +247,8 @@ impl Sample {
 enum Cut {
     Marked(fn(&Form) -> (Pattern, Marks)),
     Placed(fn() -> gallery::Garment),
+    /// Placed, with a bow.
+    Bowed,
     /// On a body of its own.
     Creature(fn() -> Document),
 }

@@ -160,10 +160,11 @@ impl World {
     ) -> Result<Self, Words> {
         let mut left: Vec<Start> =
             Start::ALL.into_iter().filter(|s| choice.only.is_none_or(|o| o == *s)).collect();
-        // What turns over is sewn as it is placed: wrapped round the body a collar stands, and does not turn over any more. Marks
-        // that the user made go before.
+        // What turns over is sewn as it is placed: wrapped round the body a collar stands, and does not turn over any more. So is
+        // what is only tacked on, as a bow is, which no mark leads. Marks that the user made go before.
         let is_marked = source.marks.pairs().next().is_some();
-        if is_marked || !source.pattern.turns_over_at_a_seam() {
+        let is_placed_first = source.pattern.turns_over_at_a_seam() || source.pattern.has_tacks();
+        if is_marked || !is_placed_first {
             left.reverse();
         }
         let (coarse, own) = (coarse_edge(&source), source.edge_length);
