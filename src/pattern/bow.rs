@@ -25,10 +25,11 @@ pub const BOW_LOOPS: std::ops::RangeInclusive<f64> = 0.02..=0.4;
 pub const BOW_TAILS: std::ops::RangeInclusive<f64> = 0.03..=1.5;
 
 /// Length of the strip of the knot, its width, and widths at the knot of the backs of the loops and of the tails, in widths of the
-/// ribbon. Gathered more, the knot is drawn to nothing by the weight of the loops; with less it is flat.
+/// ribbon. A smaller knot is drawn to nothing by the weight of the loops. What is gathered more at its back trembles there and is late to
+/// rest.
 const KNOT: [f64; 2] = [1.4, 0.5];
-const LOOP_BACK: f64 = 0.6;
-const TAIL_TOP: f64 = 0.5;
+const LOOP_BACK: f64 = 0.45;
+const TAIL_TOP: f64 = 0.4;
 /// Share of the strip of a loop, from its tip to its back end, at which it begins to taper.
 const TAPER: f64 = 0.3;
 /// How much the slanted end of a tail is higher on one side, in widths of the ribbon.

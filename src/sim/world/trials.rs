@@ -158,13 +158,16 @@ impl World {
         fabrics: Arc<DrapeSource>,
         choice: StartChoice,
     ) -> Result<Self, Words> {
-        let mut left: Vec<Start> =
-            Start::ALL.into_iter().filter(|s| choice.only.is_none_or(|o| o == *s)).collect();
-        // What turns over is sewn as it is placed: wrapped round the body a collar stands, and does not turn over any more. So is
-        // what is only tacked on, as a bow is, which no mark leads. Marks that the user made go before.
         let is_marked = source.marks.pairs().next().is_some();
-        let is_placed_first = source.pattern.turns_over_at_a_seam() || source.pattern.has_tacks();
-        if is_marked || !is_placed_first {
+        // No mark that could be suggested leads what is only tacked on, as a bow is.
+        let is_allowed = |start: &Start| match choice.only {
+            Some(only) => only == *start,
+            None => is_marked || *start == Start::Placement || !source.pattern.has_tacks(),
+        };
+        let mut left: Vec<Start> = Start::ALL.into_iter().filter(is_allowed).collect();
+        // What turns over is sewn as it is placed: wrapped round the body a collar stands, and does not turn over any more. Marks
+        // that the user made go before.
+        if is_marked || !source.pattern.turns_over_at_a_seam() {
             left.reverse();
         }
         let (coarse, own) = (coarse_edge(&source), source.edge_length);
