@@ -113,6 +113,14 @@ mod tests {
     }
 
     #[test]
+    fn a_piece_may_ask_for_a_finer_mesh_but_for_no_coarser_one() {
+        let asks = |size: f64| Piece { mesh_size: Some(size), ..strip(0.12, None) };
+        assert_eq!([0.01, 0.05].map(|size| edge_length_of(&asks(size), 0.03)), [0.01, 0.03]);
+        let folded = Piece { mesh_size: Some(0.02), ..strip(0.03, Some(3.0)) };
+        assert!((edge_length_of(&folded, 0.03) - 0.015).abs() < 1e-12, "the fold asks for less");
+    }
+
+    #[test]
     fn a_fold_inside_a_piece_counts_where_much_of_the_piece_turns_over() {
         let folded = |width: f64, at: f64| {
             let trims = Trims::from(Fold::pressed(3.0));

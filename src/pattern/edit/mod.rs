@@ -345,10 +345,7 @@ fn carry_out(pattern: &mut Pattern, edit: &PatternEdit) -> Result<Change, Words>
         PatternEdit::SetOutline { piece, outline } => pieces::set_outline(pattern, *piece, outline),
         PatternEdit::Scale { pieces, about, factor } => pieces::scale(pattern, pieces, *about, *factor),
         PatternEdit::Rename { piece, name } => pieces::rename(pattern, *piece, name),
-        PatternEdit::SetLocked { pieces, locked } => {
-            let what = if *locked { labels::LOCK } else { labels::UNLOCK };
-            pieces::set_all(pattern, pieces, what, |p| p.locked = *locked)
-        }
+        PatternEdit::SetLocked { pieces, locked } => pieces::set_locked(pattern, pieces, *locked),
         PatternEdit::SetHidden { pieces, hidden } => {
             let what = if *hidden { labels::HIDE } else { labels::SHOW };
             pieces::set_all(pattern, pieces, what, |p| p.hidden = *hidden)

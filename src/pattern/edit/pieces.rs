@@ -268,6 +268,11 @@ pub(super) fn set_activity(
     set_all(pattern, ids, what, |p| p.activity = activity)
 }
 
+pub(super) fn set_locked(pattern: &mut Pattern, ids: &[PieceId], locked: bool) -> Result<Change, Words> {
+    let what = if locked { labels::LOCK } else { labels::UNLOCK };
+    set_all(pattern, ids, what, |piece| piece.locked = locked)
+}
+
 pub(super) fn set_allowance(pattern: &mut Pattern, ids: &[PieceId], width: f64) -> Result<Change, Words> {
     if !(0.0..=WIDEST_ALLOWANCE).contains(&width) {
         return Err(words!("a seam allowance is 0 to {most} m wide", most = WIDEST_ALLOWANCE));
