@@ -86,7 +86,7 @@ fn dress_by(
     begin(session, project, seconds, Command::Dress { choice })
 }
 
-/// A warning where no start ended without a fault.
+/// A warning where no start ended without a fault, or none when it was draped.
 fn doubt(started: &Started) -> Option<String> {
     let faults = |tried: &Tried| match tried.faults.len() {
         1 => format!("{tried} has 1 fault"),
@@ -94,6 +94,9 @@ fn doubt(started: &Started) -> Option<String> {
     };
     let all: Vec<String> = started.tried.iter().map(faults).collect();
     let taken = started.taken();
+    if let Some(fault) = started.draped_fault() {
+        return Some(format!("{taken} is taken, not draped: when it was draped, {fault}"));
+    }
     (!taken.faults.is_empty())
         .then(|| format!("no start is without a fault: {}; {taken} is taken", all.join(", ")))
 }

@@ -1,6 +1,7 @@
 //! Collars, one strip in front and one at the back, sewn to the neckline; standing, or turned over.
 
 use std::f64::consts::{FRAC_PI_2, PI};
+use std::sync::Arc;
 
 use glam::{DQuat, DVec2, DVec3};
 use serde::Serialize;
@@ -10,8 +11,9 @@ use crate::draft::form::Form;
 use crate::draft::garment::{Facing, Garment, Part};
 use crate::draft::path::{Path, to_the_right};
 use crate::geometry::ids::PieceId;
+use crate::geometry::polygon;
 use crate::geometry::random::Random;
-use crate::pattern::{Edge, Fold, Piece};
+use crate::pattern::{Edge, Fold, InternalLine, Piece};
 
 /// Distance at which the strips are placed in front of and behind the neck, metres.
 const BESIDE: f64 = 0.10;
@@ -27,6 +29,8 @@ const BELOW: f64 = 0.02;
 const OVER_STAND: f64 = 0.004;
 /// Angle by which the fall of a collar is turned over, radians.
 const TURNED: f64 = 170.0 * PI / 180.0;
+/// Chords by which outlines are flattened, metres.
+const CHORDS: f64 = 1e-4;
 /// Distance of the points of a collar from the middle line, metres.
 const TIP: f64 = 0.006;
 
@@ -50,6 +54,9 @@ pub struct Fall {
     pub depth: f64,
     /// Length by which the fall is deeper at its points in front, metres.
     pub point: f64,
+    /// Whether it is cut in one with the stand and folded, as that of a camp shirt is, instead of sewn to it.
+    #[serde(skip_serializing_if = "std::ops::Not::not")]
+    pub in_one: bool,
 }
 
 impl Collar {
@@ -96,16 +103,25 @@ pub fn collar(garment: &mut Garment, form: &Form, cut: &Collar, trunk: &Trunk) {
 }
 
 /// Drafts a collar of stand and fall, open in front, places it clear of `trunk`, the fall turned over already, and sews it to the
-/// neckline. A collar in one piece that stands round the neck is not turned over by its fold: that takes more than cloth stretches.
+/// neckline. Of a collar in one piece the part beyond its fold is placed turned over.
 fn turned(garment: &mut Garment, form: &Form, cut: &Collar, fall: &Fall, trunk: &Trunk) {
+    let necklines = [0, 1].map(|side| trunk.neckline(garment, side));
+    let halves = necklines.each_ref().map(|neckline| garment.length(neckline) / 2.0);
+    let lean = (cut.flare - 1.0) * (halves[0] + halves[1]) / 2.0;
     let mut stands: [Vec<PieceId>; 2] = Default::default();
     let mut falls: [Vec<PieceId>; 2] = Default::default();
     for side in 0..2 {
-        let neckline = trunk.neckline(garment, side);
-        let half = garment.length(&neckline) / 2.0;
+        let half = halves[side];
         let out = [1.0, -1.0][side];
         let z = form.depth[side] + OUTSIDE * out;
         let at = DVec3::new(0.0, lowest(garment, &trunk.sides[side]) - BELOW, z);
+        if fall.in_one {
+            let half = fall.in_one_path(cut.height, half, lean, side);
+            stands[side] = strips(garment, side, ["collar front", "collar back"], half, at, DQuat::IDENTITY);
+            stands[side].iter().for_each(|id| fold_across(garment, *id, cut.height));
+            garment.sew(&garment.run(&stands[side], "collar seam", DVec3::X), &necklines[side]);
+            continue;
+        }
         let turn = DQuat::from_rotation_x(TURNED * out);
         let over = at + DVec3::new(0.0, cut.height, OVER_STAND * out);
         stands[side] = strips(
@@ -118,12 +134,12 @@ fn turned(garment: &mut Garment, form: &Form, cut: &Collar, fall: &Fall, trunk: 
         );
         let path = fall.path(cut.flare, half, side);
         falls[side] = strips(garment, side, ["collar front", "collar back"], path, over, turn);
-        garment.sew(&garment.run(&stands[side], "collar seam", DVec3::X), &neckline);
+        garment.sew(&garment.run(&stands[side], "collar seam", DVec3::X), &necklines[side]);
         let roll = [&stands[side], &falls[side]].map(|pieces| garment.run(pieces, "roll line", DVec3::X));
         garment.sew(&roll[0], &roll[1]);
     }
     let labels = |part: &str| [format!("{part} left"), format!("{part} right")];
-    for (part, [front, back]) in [("stand side", &stands), ("fall side", &falls)] {
+    for (part, [front, back]) in [("collar side", &stands), ("stand side", &stands), ("fall side", &falls)] {
         for label in labels(part) {
             garment.sew_alike(front, back, &[&label], DVec3::Y);
         }
@@ -139,6 +155,20 @@ fn stand(height: f64, half: f64) -> Path {
 }
 
 impl Fall {
+    /// Half of a collar in one piece in front (0) or at the back (1), `half` metres long at the neckline, that leans outwards by `lean`
+    /// metres from there to the outer edge.
+    fn in_one_path(&self, stand: f64, half: f64, lean: f64, side: usize) -> Path {
+        let total = stand + self.depth;
+        let corner = DVec2::new(half + lean, total);
+        let path =
+            Path::from(DVec2::ZERO).line("collar seam", DVec2::new(half, 0.0)).line("collar side", corner);
+        if side == 1 {
+            return path.line("collar edge", DVec2::new(0.0, total));
+        }
+        let (tip, control) = (DVec2::new(TIP, total + self.point), DVec2::new(half / 2.0, total));
+        path.curve("collar edge", corner.lerp(control, 2.0 / 3.0), tip.lerp(control, 2.0 / 3.0), tip)
+    }
+
     /// Half of the fall in front (0) or at the back (1), `half` metres long at the roll line: bent in its plane so that the outer
     /// edge is `flare` times as long.
     fn path(&self, flare: f64, half: f64, side: usize) -> Path {
@@ -155,6 +185,20 @@ impl Fall {
         let (tip, control) = (at(TIP, self.depth + self.point), at(half / 2.0, self.depth));
         path.curve("collar edge", corner.lerp(control, 2.0 / 3.0), tip.lerp(control, 2.0 / 3.0), tip)
     }
+}
+
+/// Adds a fold across a piece, at this height of its own plane, metres.
+fn fold_across(garment: &mut Garment, id: PieceId, height: f64) {
+    let Some(piece) = garment.pattern.pieces.get_mut(&id).map(Arc::make_mut) else { return };
+    let outline = piece.flattened(CHORDS);
+    let met = polygon::sides(&outline).filter(|[a, b]| (a.y < height) != (b.y < height));
+    let mut ends: Vec<f64> = met.map(|[a, b]| a.lerp(b, (height - a.y) / (b.y - a.y)).x).collect();
+    ends.sort_by(f64::total_cmp);
+    let [first, .., last] = ends[..] else { return };
+    let edge =
+        Edge { start: DVec2::new(first, height), trims: Fold::pressed(TURNED).into(), ..Edge::default() };
+    let end = DVec2::new(last, height);
+    piece.lines.push(InternalLine { edges: vec![edge], end, name: "roll line".into(), end_rule: None });
 }
 
 /// Places two halves in front, or a whole at the back, with the fold at the roll line of what is turned by `turn`.

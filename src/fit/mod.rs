@@ -21,7 +21,7 @@ mod verdict;
 
 pub use causes::{Causes, STRAINED, Smaller, Strained};
 pub use compare::{Change, Matching, Unlike};
-pub use fallen::{Fallen, fallen};
+pub use fallen::{Fallen, fallen, fallen_from, tops};
 pub use girth::{Girth, girth, girths};
 pub use maps::{Map, MapKind, MapReader, Worn};
 pub use measured::measure;

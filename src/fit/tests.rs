@@ -5,7 +5,9 @@ use crate::body::Surface;
 use crate::body::closest::closest_on_triangle;
 use crate::cloth::FlatPiece;
 use crate::fit::on_body::{NEAR, WRONG_SIDE};
-use crate::fit::{Causes, Smaller, Tight, fallen, faults, tight_places, tightest, verdict};
+use crate::fit::{
+    Causes, Smaller, Tight, fallen, fallen_from, faults, tight_places, tightest, tops, verdict,
+};
 use crate::geometry::mesh::TriMesh;
 use crate::pattern::{Button, EdgeRef, Piece, PiecePoint, Seam};
 
@@ -193,6 +195,27 @@ fn what_lies_much_lower_than_it_was_placed_has_fallen_down() {
     );
     let [found] = placed(0.3, true)[..] else { panic!("two sheets that are sewn fall together") };
     assert!((found.by - 0.3).abs() < 1e-9 && found.piece < 2, "{found:?}");
+}
+
+#[test]
+fn what_lies_much_lower_than_its_tops_were_has_fallen_down() {
+    let Sleeve { pattern, garment, state } = sleeve(0.1, |p| p);
+    let tops = tops(&garment, &state);
+    assert_eq!(tops.len(), 2);
+    assert!(tops.iter().all(|top| (top - 0.5 - HEIGHT).abs() < 1e-9), "{tops:?}");
+    let after = |by: f64| fallen_from(&tops, &pattern, &garment, &sleeve(0.1, |p| p - DVec3::Y * by).state);
+    assert_eq!((after(0.1), after(-0.5)), (Vec::new(), Vec::new()));
+    let [found] = after(0.3)[..] else { panic!("two sheets that are sewn fall together") };
+    assert!((found.by - 0.3).abs() < 1e-9 && found.piece < 2, "{found:?}");
+}
+
+#[test]
+fn draped_cloth_that_touches_the_body_nowhere_has_fallen_off_it() {
+    let report = report(&sleeve(exact_radius(), |p| p - DVec3::Y * 5.0), cylinder(0.05, 0.2, 1.2, 48, 20));
+    let told = |draped: bool| {
+        faults(&report, draped).iter().any(|(fault, _)| fault.words.contains("touches the body nowhere"))
+    };
+    assert_eq!((told(true), told(false)), (true, false));
 }
 
 #[test]

@@ -129,6 +129,11 @@ impl Faults {
     }
 
     fn body(&mut self, report: &Report, draped: bool) {
+        if draped && report.triangles > 0 && report.faces_near_body == 0 {
+            let words =
+                words!("it touches the body nowhere: it has fallen off it, or nothing holds it there");
+            self.tell(Spot::Nowhere, words!("garment"), words);
+        }
         let p = &report.penetration;
         if p.vertices > 0 || p.faces > 0 {
             let depth = p.max_depth * 1000.0;

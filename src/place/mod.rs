@@ -5,8 +5,10 @@ pub mod led;
 pub mod limbs;
 pub mod onto;
 pub mod points;
+pub mod turned;
 
 pub use led::led;
 pub use limbs::{Limb, Part, limbs};
 pub use onto::{Moved, onto};
 pub use points::{Point, points, rolled_up, stood_at};
+pub use turned::Turned;

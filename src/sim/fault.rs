@@ -25,12 +25,14 @@ pub struct Fault {
 }
 
 /// How the cloth came to its present position.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Lies {
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Lies<'a> {
     /// Whether physics has moved it: it may have folds.
     pub draped: bool,
     /// Whether it was sewn from the placement of its pieces, and the body has not moved since.
     pub sewn: bool,
+    /// Heights of the highest points of its pieces before a start draped it, metres; None where none did, or the body has moved.
+    pub hung_at: Option<&'a [f64]>,
 }
 
 /// A pair of marks near a fault.
@@ -49,16 +51,17 @@ pub fn faults(
     garment: &Garment,
     cloth: &ClothState,
     body: &BodyIndex<'_>,
-    lies: Lies,
+    lies: Lies<'_>,
 ) -> Vec<Fault> {
     let mut found = fit::faults(report, lies.draped);
     // Cloth that could not be sewn to its neighbours falls off: that is reported already.
-    if lies.sewn && report.seams.open == 0 {
-        found.extend(
-            fit::fallen(&source.pattern, garment, cloth)
-                .into_iter()
-                .map(|fallen| told_fallen(fallen, garment)),
-        );
+    if report.seams.open == 0 {
+        let fallen = match lies.hung_at {
+            Some(tops) => fit::fallen_from(tops, &source.pattern, garment, cloth),
+            None if lies.sewn => fit::fallen(&source.pattern, garment, cloth),
+            None => Vec::new(),
+        };
+        found.extend(fallen.into_iter().map(|fallen| told_fallen(fallen, garment)));
     }
     if found.is_empty() {
         return Vec::new();
@@ -79,7 +82,7 @@ fn told_fallen(fallen: Fallen, garment: &Garment) -> (Problem, fit::Spot) {
         .get(fallen.piece)
         .map_or_else(Words::default, |(_, name)| words!("piece {name}", name));
     let words = words!(
-        "it has slid down by {cm} cm from where it was placed: nothing holds it",
+        "it has slid down by {cm} cm from where it was put: nothing holds it",
         cm = decimal(fallen.by * 100.0, 0)
     );
     (Problem { kind: ProblemKind::Dressing, place, words }, fit::Spot::Piece(fallen.piece))

@@ -140,6 +140,8 @@ pub struct Snapshot {
     /// Whether the cloth was sewn from the placement of its pieces on the body in its present pose; then it should still be
     /// there.
     pub was_sewn: bool,
+    /// Heights of the highest points of its pieces before a start draped it, metres; None where none did, or the body has moved.
+    pub hung_at: Option<Arc<[f64]>>,
     /// Pieces are being sewn: `garment` then has open seams.
     pub is_sewing: bool,
     /// While starts are tried: the present one, and whether it is being draped.
@@ -184,8 +186,8 @@ impl Snapshot {
     }
 
     /// How the cloth came to its present position.
-    pub fn lies(&self) -> Lies {
-        Lies { draped: self.was_draped, sewn: self.was_sewn }
+    pub fn lies(&self) -> Lies<'_> {
+        Lies { draped: self.was_draped, sewn: self.was_sewn, hung_at: self.hung_at.as_deref() }
     }
 
     /// Whether any cloth is on the body.

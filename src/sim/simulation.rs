@@ -191,6 +191,7 @@ impl Simulation {
             drape: world.drape_state(),
             was_draped: world.was_draped,
             was_sewn: world.was_sewn,
+            hung_at: world.hung_at.clone(),
             is_sewing: world.sewing.is_some(),
             trying: world.trials.as_ref().map(|trials| trials.now()),
             started: world.started.clone(),

@@ -103,4 +103,12 @@ impl Started {
     pub fn taken(&self) -> &Tried {
         &self.tried[self.taken]
     }
+
+    /// The first fault of the start that was taken when it was draped, where it was taken undraped because of that.
+    pub fn draped_fault(&self) -> Option<&Words> {
+        let taken = self.taken();
+        let draped = |tried: &&Tried| tried.start == taken.start && tried.draped;
+        let tried = self.tried.iter().rfind(draped).filter(|_| !taken.draped)?;
+        tried.faults.first().filter(|_| taken.faults.is_empty())
+    }
 }

@@ -17,7 +17,7 @@ use toile::session::recording::Recording;
 use toile::session::replay::Replay;
 use toile::session::samples::Sample;
 use toile::session::{BodyChoice, Command, Notice, Session, Settings};
-use toile::sim::{DrapeState, Runner, Simulation, faults};
+use toile::sim::{DrapeState, Runner, Simulation, Start, StartChoice, faults};
 use toile::wrap::Phase;
 
 use crate::common::{ball, cloth_hash, project, run, tube_project};
@@ -441,6 +441,30 @@ fn what_falls_down_is_told() {
     assert!(!told(&s));
     run(&mut s, 40);
     assert!(told(&s));
+}
+
+/// A skirt that is wider than the hips, without anything that holds it.
+#[test]
+fn what_slides_down_when_it_is_draped_is_taken_as_wrapped_and_told() {
+    let mut project = placed([0.56, 0.56], 0.55, 0.5, 0.03).project();
+    project.document.body = BodyChoice::Mannequin(Measurements::default());
+    project.document.take_marks(Arc::default());
+    let mut s = Session::new(project, Runner::inline(Simulation::default()));
+    s.apply_alone(Command::Dress { choice: StartChoice::default() }).expect("begun");
+    run(&mut s, 6000);
+    let started = s.snapshot().started.clone().expect("starts were tried");
+    let taken = started.taken();
+    assert_eq!((taken.start, taken.draped, taken.faults.len()), (Start::Marks, false, 0), "{started:?}");
+    let fault = started.draped_fault().expect("it slid down");
+    assert!(fault.contains("slid down by"), "{fault}");
+    assert!(s.snapshot().cloth.positions.iter().all(|p| p.y > 0.4), "it is where it was put");
+    // The user may still have it draped.
+    s.apply_alone(Command::Dress { choice: StartChoice { draped: true, ..StartChoice::default() } })
+        .expect("begun");
+    run(&mut s, 6000);
+    let started = s.snapshot().started.clone().expect("starts were tried");
+    let taken = started.taken();
+    assert!(taken.draped && taken.faults.iter().any(|fault| fault.contains("slid down by")), "{started:?}");
 }
 
 #[test]

@@ -335,6 +335,28 @@ fn the_collar_of_the_shirt_lies_over_its_stand_on_the_outside() {
     }
 }
 
+#[test]
+fn the_collar_in_one_piece_of_the_camp_shirt_is_turned_over_on_the_outside() {
+    for edge_length in [0.03, 0.02] {
+        let mut project = drafted(Sample::CampShirt);
+        project.document.settings.edge_length = edge_length;
+        let session = put_on(project, None, "camp shirt");
+        let started = session.snapshot().started.clone().expect("starts were tried");
+        assert_eq!(started.taken().start, Start::Placement);
+        let [edge, seam] = along(&session, &["collar"], ["collar edge", "collar seam"]);
+        assert!(edge.len() > 20 && seam.len() > 20);
+        let axis = seam.iter().sum::<DVec3>() / seam.len() as f64;
+        let flat = |p: DVec3| DVec2::new(p.x - axis.x, p.z - axis.z);
+        for p in edge {
+            let apart = |q: &DVec3| flat(*q).angle_to(flat(p)).abs();
+            let seam = *seam.iter().min_by(|a, b| apart(a).total_cmp(&apart(b))).expect("a neckline");
+            // Standing its edge would be 7 cm above the seam; turned over at a height of 26 mm it is 46 mm below that.
+            assert!(p.y - seam.y < 0.015, "{p} stands above the neckline at {seam}");
+            assert!(flat(p).length() > flat(seam).length(), "{p} is not outside of the neckline at {seam}");
+        }
+    }
+}
+
 /// The cloth of the pieces whose names end like this, as a surface.
 fn cloth_of(session: &Session, end: &str) -> Surface {
     let snapshot = session.snapshot();

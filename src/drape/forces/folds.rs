@@ -8,6 +8,7 @@ use std::f64::consts::{PI, TAU};
 use glam::{DMat3, DVec3};
 
 use crate::drape::sheet::Sheet;
+use crate::pattern::Fold;
 
 /// Damping of hinges in small steps, as stiffness-proportional damping, s: the swing of a pressed flap dies after a few tenths of
 /// a second.
@@ -47,6 +48,16 @@ impl Folds {
             }
         }
         Self { hinges }
+    }
+
+    /// Those that turn over, and are turned over with the cloth at `x`.
+    pub fn turned_over(mut self, x: &[DVec3]) -> Self {
+        let is_over = |hinge: &Hinge| {
+            let now = hinge.angle_at(x).unwrap_or(0.0);
+            hinge.angle.abs() > Fold::OVER && now.abs() > Fold::OVER && (now > 0.0) == (hinge.angle > 0.0)
+        };
+        self.hinges.retain(is_over);
+        self
     }
 
     /// Whether there is none.

@@ -238,12 +238,13 @@ impl DrapedGarment {
             .map_err(|why| Undrapable(words!("the cloth cannot be draped: {why}", why = why.words())))?;
         let of_triangle: Vec<&Fabric> = laid.iter().map(|&t| fabric(t)).collect();
         let beside = |sheet: &Sheet, v: u32| of_triangle[sheet.adjacency.vertex_triangles.of(v)[0] as usize];
-        let (sheet, mut worked) = Worked::new(sheet, &garment, &own, beside, sewn.is_some());
+        let positions: Vec<DVec3> = vertices.iter().map(|&v| cloth.positions[v as usize]).collect();
+        let open = sewn.is_some().then_some(&positions[..]);
+        let (sheet, mut worked) = Worked::new(sheet, &garment, &own, beside, open);
         let mass = weighted(masses(&sheet, &of_triangle), &garment, &own, sewn.is_some());
         let most = |of: fn(&Fabric) -> f64| of_triangle.iter().map(|f| of(f)).fold(0.0, f64::max);
         let (thickness, damping) = (most(|f| f.thickness_m), most(|f| f.damping_per_s));
         let friction = (0..sheet.len() as u32).map(|v| beside(&sheet, v).friction).collect();
-        let positions: Vec<DVec3> = vertices.iter().map(|&v| cloth.positions[v as usize]).collect();
         let hanging = || steps_a_tick(&positions, sheet.mean_edge(), settings.strain);
         let count = sewn.map_or_else(hanging, |(.., substeps)| substeps);
         let slow = stable_rate(TICK / count as f64, BENDING_DAMPING);

@@ -2,6 +2,8 @@
 
 use std::collections::BTreeMap;
 
+use glam::DVec3;
+
 use crate::cloth::fabric::Bending as Plate;
 use crate::cloth::{Fabric, Garment};
 use crate::drape::forces::bands::Bands;
@@ -28,29 +30,31 @@ pub(in crate::drape) struct Worked {
 
 impl Worked {
     /// What is worked on `garment`, whose vertices are numbered `own` in `sheet`. The sheet is then creased along the folds
-    /// and at all edges in wrinkles; `fabric` is that of a vertex of the sheet. Nothing is, while it is still `sewn`: pieces are
-    /// neither folded nor buttoned before, and elastic without weight slides off upwards.
+    /// and at all edges in wrinkles; `fabric` is that of a vertex of the sheet. While it is still `open`, to be sewn from these
+    /// positions (metres), only what was placed turned over is folded: elastic without weight slides off upwards.
     pub fn new<'a>(
         sheet: Sheet,
         garment: &Garment,
         own: &[u32],
         fabric: impl Fn(&Sheet, u32) -> &'a Fabric,
-        is_sewn: bool,
+        open: Option<&[DVec3]>,
     ) -> (Sheet, Self) {
-        if is_sewn {
-            let (folds, bands) = (Folds::default(), Bands::default());
-            return (sheet, Self { folds, bands, buttons: Vec::new() });
-        }
         let ends = |corners: [u32; 2]| {
             let ends = corners.map(|c| own[garment.corners[c as usize].vertex as usize]);
             ends.iter().all(|&v| v != u32::MAX).then_some(ends)
         };
         let trims = &garment.trims;
+        let folds = trims.folds.iter();
+        let folds = folds.filter_map(|f| Some((ends(f.corners)?, f.what.angle, f.what.strength)));
+        if let Some(positions) = open {
+            let folds = Folds::new(&sheet, folds).turned_over(positions);
+            let sheet =
+                sheet.creased(folds.hinges().iter().map(|hinge| [hinge.vertices[0], hinge.vertices[1]]));
+            return (sheet, Self { folds, bands: Bands::default(), buttons: Vec::new() });
+        }
         let elastics = trims.elastics.iter();
         let bands = elastics.filter_map(|e| Some((ends(e.corners)?, e.what.ratio, e.what.tension)));
         let bands = Bands::new(&sheet, bands);
-        let folds = trims.folds.iter();
-        let folds = folds.filter_map(|f| Some((ends(f.corners)?, f.what.angle, f.what.strength)));
         let bent = trims.wrinkles.iter().filter_map(|bend| {
             let ends = ends(bend.corners)?;
             let Plate { warp, weft, .. } = fabric(&sheet, ends[0]).bending;

@@ -250,10 +250,21 @@ pub fn coat() -> Garment {
 /// A shirt whose collar turns over.
 pub fn shirt() -> Garment {
     let bodice = Bodice { bust_ease: 0.14, hem_ease: 0.10, ..boxy(Hem::Hip) };
-    let collar = Collar { height: 0.030, flare: 1.2, fall: Some(Fall { depth: 0.044, point: 0.012 }) };
+    let collar =
+        Collar { height: 0.030, flare: 1.2, fall: Some(Fall { depth: 0.044, point: 0.012, in_one: false }) };
     let sleeve = Sleeve { cuff: Some(0.06), gather: 1.2, ..sleeve(0.9) };
     let upper = Upper { collar: Some(collar), sleeve: Some(sleeve), ..upper(bodice, close()) };
     Garment { cut: drawn(top(Kind::Collared, upper)), fabric: "cotton", dye: dyed([196, 214, 232]) }
+}
+
+/// A shirt with short sleeves and a collar in one piece, which turns over at a fold.
+pub fn camp_shirt() -> Garment {
+    let bodice = Bodice { bust_ease: 0.18, hem_ease: 0.16, ..boxy(Hem::Hip) };
+    let fall = Fall { depth: 0.046, point: 0.014, in_one: true };
+    let collar = Collar { height: 0.026, flare: 1.3, fall: Some(fall) };
+    let sleeve = Sleeve { hem_ease: 0.14, ..sleeve(0.35) };
+    let upper = Upper { collar: Some(collar), sleeve: Some(sleeve), ..upper(bodice, close()) };
+    Garment { cut: drawn(top(Kind::Collared, upper)), fabric: "linen", dye: dyed([206, 120, 92]) }
 }
 
 /// A skirt of knife pleats all round, on a waistband.

@@ -74,6 +74,8 @@ pub enum Sample {
     Coat,
     /// A shirt with a collar that turns over.
     Shirt,
+    /// A shirt with short sleeves and a collar in one piece.
+    CampShirt,
     /// Short trousers with turn-ups.
     TurnUps,
     /// A skirt of knife pleats.
@@ -88,7 +90,7 @@ pub enum Sample {
 
 impl Sample {
     /// All samples, in the order of the menu.
-    pub const ALL: [Self; 26] = [
+    pub const ALL: [Self; 27] = [
         Self::Tshirt,
         Self::Skirt,
         Self::Dress,
@@ -110,6 +112,7 @@ impl Sample {
         Self::Dungarees,
         Self::Coat,
         Self::Shirt,
+        Self::CampShirt,
         Self::TurnUps,
         Self::PleatedSkirt,
         Self::BowSkirt,
@@ -144,6 +147,7 @@ impl Sample {
             Self::Dungarees => "Dungarees",
             Self::Coat => "Coat",
             Self::Shirt => "Shirt",
+            Self::CampShirt => "Camp shirt",
             Self::TurnUps => "Turn-up shorts",
             Self::PleatedSkirt => "Pleated skirt",
             Self::BowSkirt => "Skirt with a bow",
@@ -176,6 +180,7 @@ impl Sample {
             Self::Dungarees => "dungarees",
             Self::Coat => "coat",
             Self::Shirt => "shirt",
+            Self::CampShirt => "camp-shirt",
             Self::TurnUps => "turn-ups",
             Self::PleatedSkirt => "pleated-skirt",
             Self::BowSkirt => "bow-skirt",
@@ -234,6 +239,7 @@ impl Sample {
             Self::Dungarees => Cut::Placed(gallery::dungarees),
             Self::Coat => Cut::Placed(gallery::coat),
             Self::Shirt => Cut::Placed(gallery::shirt),
+            Self::CampShirt => Cut::Placed(gallery::camp_shirt),
             Self::TurnUps => Cut::Placed(gallery::turn_ups),
             Self::PleatedSkirt => Cut::Placed(gallery::pleated_skirt),
             Self::BowSkirt => Cut::Bowed,

@@ -57,6 +57,7 @@ impl World {
             meshes,
             was_draped: self.was_draped,
             was_sewn: self.was_sewn,
+            hung_at: self.hung_at,
             separated: self.separated,
             ..Self::default()
         };

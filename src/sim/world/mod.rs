@@ -73,6 +73,8 @@ pub struct World {
     pub was_draped: bool,
     /// Whether the cloth was sewn from the placement of its pieces, on the body in its present pose.
     pub was_sewn: bool,
+    /// Heights of the highest points of its pieces before a start draped it, metres; None where none did, or the body has moved.
+    pub hung_at: Option<Arc<[f64]>>,
     /// Whether seams that are too short are still to be reported.
     pub seams_unseen: bool,
     /// The sewing in progress: `garment` is then the one with open seams.
@@ -114,6 +116,7 @@ impl Default for World {
             draping: None,
             was_draped: false,
             was_sewn: false,
+            hung_at: None,
             seams_unseen: false,
             sewing: None,
             active: None,

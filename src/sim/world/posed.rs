@@ -170,7 +170,7 @@ impl World {
         let posed = Posed { reposer, cloth: Arc::clone(&cloth), outcome };
         self.posed = size.is_none().then(|| Arc::new(posed));
         (self.source, self.body, self.cloth) = (Some(source), Some(size.unwrap_or(body)), cloth);
-        (self.dressing, self.draping, self.was_sewn) = (None, None, false);
+        (self.dressing, self.draping, self.was_sewn, self.hung_at) = (None, None, false, None);
         match then {
             Then::Part(fabrics) | Then::Settle(fabrics) if more_crossings => self.drape_posed(fabrics),
             Then::Settle(_) => self.settle(),

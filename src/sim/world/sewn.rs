@@ -15,7 +15,7 @@ use crate::geometry::words::{Words, decimal, words};
 use crate::pattern::naming;
 use crate::pattern::triangulate::Meshes;
 use crate::pattern::{Problem, ProblemKind};
-use crate::place::led;
+use crate::place::{Turned, led};
 use crate::sim::source::DrapeSource;
 use crate::sim::source::GarmentSource;
 use crate::sim::world::{World, unlaid};
@@ -79,8 +79,10 @@ impl World {
         let mut meshes = Meshes::default();
         let (garment, mut problems) = cloth::build_again(&source.pattern, source.edge_length, &mut meshes);
         let garment = Arc::new(garment);
+        let turned = Turned::new(&source.pattern);
         let place = |corner: &cloth::Corner| -> Option<DVec3> {
-            Some(source.pattern.pieces.get(&corner.piece)?.placement?.at(corner.uv))
+            let pose = source.pattern.pieces.get(&corner.piece)?.placement?;
+            Some(turned.at(corner.piece, &pose, corner.uv))
         };
         let places: Vec<Option<DVec3>> = garment.corners.iter().map(place).collect();
         let places = led(&garment, &body, &places);

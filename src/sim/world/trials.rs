@@ -4,8 +4,9 @@ use std::sync::Arc;
 
 use crate::body::{Surface, landmarks};
 use crate::cloth::Skip;
-use crate::fit::{BodyIndex, Report, TightPlace, measure, tight_places};
+use crate::fit::{BodyIndex, Report, TightPlace, measure, tight_places, tops};
 use crate::geometry::words::{Words, words};
+use crate::place::Turned;
 use crate::sim::fault::{Fault, Lies, faults};
 use crate::sim::source::DrapeSource;
 use crate::sim::source::GarmentSource;
@@ -167,7 +168,8 @@ impl World {
         let mut left: Vec<Start> = Start::ALL.into_iter().filter(is_allowed).collect();
         // What turns over is sewn as it is placed: wrapped round the body a collar stands, and does not turn over any more. Marks
         // that the user made go before.
-        if is_marked || !source.pattern.turns_over_at_a_seam() {
+        let turns_over = source.pattern.turns_over_at_a_seam() || !Turned::new(&source.pattern).is_empty();
+        if is_marked || !turns_over {
             left.reverse();
         }
         let (coarse, own) = (coarse_edge(&source), source.edge_length);
@@ -307,6 +309,7 @@ impl World {
         trials.note(self.clone(), faults, places);
         if drapes_next {
             (trials.draping, trials.ticks) = (true, 0);
+            self.hung_at = self.garment.as_ref().map(|garment| tops(garment, &self.cloth).into());
             self.drape_for(None, Arc::clone(&trials.fabrics));
             return None;
         }
@@ -389,7 +392,7 @@ impl World {
                     started.tried[started.taken].ticks += std::mem::take(&mut trials.ticks);
                 }
                 trials.draped_fine = Some((Arc::new(self.clone()), faults.to_vec(), places));
-                let undraped = Self { was_draped: false, ..Arc::unwrap_or_clone(coarse) };
+                let undraped = Self { was_draped: false, hung_at: None, ..Arc::unwrap_or_clone(coarse) };
                 *self = undraped.refined(edge_length, Arc::clone(&trials.fabrics));
                 true
             }
@@ -403,7 +406,8 @@ impl World {
         let split = self.drawn();
         let (garment, cloth) =
             split.as_ref().map_or((garment, &self.cloth), |(garment, cloth)| (garment, cloth));
-        let lies = Lies { draped: self.was_draped, sewn: self.was_sewn };
+        let hung_at = self.hung_at.as_deref().filter(|_| self.was_draped);
+        let lies = Lies { draped: self.was_draped, sewn: self.was_sewn, hung_at };
         let index = BodyIndex::new(body);
         let report = measure(&source.pattern, garment, cloth, &index);
         Some(Judged {
@@ -440,7 +444,7 @@ fn begun(start: Start, trials: &Trials) -> Result<World, Words> {
 }
 
 /// Number of places with faults.
-fn places(report: &Report, lies: Lies) -> usize {
+fn places(report: &Report, lies: Lies<'_>) -> usize {
     let folds = if lies.draped { report.faces_in_folds + report.faces_between } else { 0 };
     let inside = report.penetration.vertices + report.penetration.faces;
     let through = report.edges_through_body + report.body_edges_through_garment;

@@ -7,7 +7,7 @@ use crate::sim::{Snapshot, Start, StartChoice, Started};
 use crate::ui::actions::Tool;
 use crate::ui::app::App;
 use crate::ui::body_pane::ghosts::Ghosts;
-use crate::ui::language::{say, tr};
+use crate::ui::language::{said, say, tr};
 
 impl App {
     /// Dresses the garment by the best start.
@@ -54,6 +54,10 @@ fn words(started: &Started, has_marks: bool) -> String {
         (Start::Marks, false) if has_marks => tr("Dressed by its marks, not draped"),
         (Start::Marks, false) => tr("Dressed by suggested marks, not draped"),
     };
+    if let Some(fault) = started.draped_fault() {
+        let fault = said(fault);
+        return say!("{dressed}. When it was draped: {fault}", dressed, fault);
+    }
     match taken.faults.len() {
         0 => format!("{dressed}."),
         _ => say!("{dressed}: the best of the starts, and not without faults (see Problems).", dressed),

@@ -42,6 +42,7 @@ const SAMPLES: [&[u8]; Sample::ALL.len()] = [
     include_bytes!("../../../assets/samples/dungarees.png"),
     include_bytes!("../../../assets/samples/coat.png"),
     include_bytes!("../../../assets/samples/shirt.png"),
+    include_bytes!("../../../assets/samples/camp-shirt.png"),
     include_bytes!("../../../assets/samples/turn-ups.png"),
     include_bytes!("../../../assets/samples/pleated-skirt.png"),
     include_bytes!("../../../assets/samples/bow-skirt.png"),
