@@ -146,7 +146,14 @@ fn a_part_has_the_same_triangles_wherever_the_cloth_goes() {
     let piece = *pattern.pieces.keys().next().expect("a piece");
     let at = |x: f64| PiecePoint { piece, at: DVec2::new(x, 0.05) };
     let (diameter, colour) = (Button::SHIRT, Button::PEARL);
-    pattern.add_button(Button { button: at(0.05), hole: at(0.15), diameter, colour, open: true });
+    pattern.add_button(Button {
+        button: at(0.05),
+        hole: at(0.15),
+        diameter,
+        colour,
+        open: true,
+        tack: false,
+    });
     let flat = hung(&pattern, |p| p);
     let rolled =
         hung(&pattern, |p| DVec3::new(0.05 * (p.x / 0.05).sin(), p.y * 1.1, 0.05 * (p.x / 0.05).cos()));

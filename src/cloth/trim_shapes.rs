@@ -89,6 +89,7 @@ impl TrimShapes {
         let buttons = pattern
             .buttons
             .values()
+            .filter(|button| !button.tack)
             .map(|&look| {
                 let half = DVec2::X * ((look.diameter + HOLE_EASE) / 2.0);
                 let hole = look.hole;

@@ -304,6 +304,7 @@ fn opened(garment: &mut Garment, form: &Form, left: Path, opening: &Opening, hei
             diameter: opening.diameter,
             colour: opening.colour,
             open: false,
+            tack: false,
         });
     }
     halves.into()

@@ -1,6 +1,6 @@
 //! Measures a garment on a body.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use crate::cloth::{ClothState, Garment};
 use crate::fit::causes::{causes, smaller, uneased_p99};
@@ -24,7 +24,7 @@ pub fn measure(pattern: &Pattern, garment: &Garment, state: &ClothState, body: &
     let tree = laid.mesh.tree();
     let (strain, pieces) = shape::strain_and_pieces(garment, &laid);
     let (interior_edges, folded_edges) = shape::interior_and_folded_edges(&laid);
-    let sits = on_body(&laid, &tree, body);
+    let sits = on_body(&laid, &tree, body, &applied(pattern));
     let unmapped = (0..garment.vertex_count).filter(|&v| state.mapped.get(v) != Some(&true)).count();
     let mut report = Report {
         triangles: laid.mesh.triangles.len(),
@@ -130,6 +130,19 @@ pub(super) fn groups(pattern: &Pattern) -> BTreeMap<PieceId, PieceId> {
         }
     }
     group
+}
+
+/// Pieces that seams join to others only as a part that is tacked on to the rest, as a bow is.
+fn applied(pattern: &Pattern) -> BTreeSet<PieceId> {
+    let groups = groups(pattern);
+    let tacked = pattern.buttons.values().filter(|button| button.tack && !button.open);
+    let parts: BTreeSet<PieceId> = tacked
+        .filter_map(|tack| {
+            let [Some(rest), Some(own)] = tack.pieces().map(|piece| groups.get(&piece)) else { return None };
+            (own != rest).then_some(*own)
+        })
+        .collect();
+    groups.into_iter().filter(|(_, group)| parts.contains(group)).map(|(piece, _)| piece).collect()
 }
 
 #[cfg(test)]

@@ -12,6 +12,8 @@ use crate::fit::openings::{Opening, openings};
 use crate::fit::shape::quantile;
 use crate::geometry::bvh::Bvh;
 use crate::geometry::crossings::meetings;
+use crate::geometry::ids::PieceId;
+use crate::geometry::mesh::TriMesh;
 use crate::geometry::parallel::{LEAST_SEARCHES, LEAST_SHARE};
 use crate::geometry::winding::Winding;
 
@@ -115,7 +117,14 @@ pub(super) struct OnBody {
     pub openings: Vec<Opening>,
 }
 
-pub(super) fn on_body(laid: &Laid, cloth_tree: &Bvh, body: &BodyIndex<'_>) -> OnBody {
+/// Measures `laid`, whose triangles have the bounding volumes `cloth_tree`. The pieces `applied` are tacked on: their borders are no
+/// openings.
+pub(super) fn on_body(
+    laid: &Laid,
+    cloth_tree: &Bvh,
+    body: &BodyIndex<'_>,
+    applied: &BTreeSet<PieceId>,
+) -> OnBody {
     let body_mesh = &body.surface.mesh;
     let body_edges = &body.surface.adjacency.edges;
     let through_body = meetings(&laid.mesh.positions, &laid.edges, body_mesh, body.winding.tree());
@@ -133,8 +142,14 @@ pub(super) fn on_body(laid: &Laid, cloth_tree: &Bvh, body: &BodyIndex<'_>) -> On
         faces_in_folds: folded.iter().filter(|(_, folded)| *folded).count(),
         faces_between: folded.iter().filter(|(t, folded)| !folded && is_between(laid, body, *t)).count(),
         clearance: Clearance { median: quantile(&distances, 0.5), p95: quantile(&distances, 0.95) },
-        openings: openings(&laid.mesh, body_mesh, body.winding.tree(), |t| body.is_skin(t)),
+        openings: openings(&without(laid, applied), body_mesh, body.winding.tree(), |t| body.is_skin(t)),
     }
+}
+
+/// The mesh of `laid` without these pieces.
+fn without(laid: &Laid, pieces: &BTreeSet<PieceId>) -> TriMesh {
+    let kept = laid.mesh.triangles.iter().zip(&laid.pieces).filter(|(_, piece)| !pieces.contains(piece));
+    TriMesh { positions: laid.mesh.positions.clone(), triangles: kept.map(|(vs, _)| *vs).collect() }
 }
 
 /// Signed distances of the vertices, ascending, and for each vertex whether it is inside.

@@ -9,7 +9,7 @@ use crate::fit::{
     Causes, Smaller, Tight, fallen, fallen_from, faults, tight_places, tightest, tops, verdict,
 };
 use crate::geometry::mesh::TriMesh;
-use crate::pattern::{EdgeRef, Piece, Seam};
+use crate::pattern::{Button, EdgeRef, Piece, PiecePoint, Seam};
 
 /// A closed cylinder about y of radius `r` from `low` to `high`, `n` facets round, with caps.
 fn cylinder(r: f64, low: f64, high: f64, n: u32, rows: u32) -> TriMesh {
@@ -419,4 +419,22 @@ fn what_is_not_dressed_and_too_small_is_told_by_how_much() {
     assert!(told(3, 0.04).ends_with(&format!("in 3 places; {words}\n")), "{}", told(3, 0.04));
     assert!(!told(3, 0.005).contains("smaller"));
     assert_eq!(told(0, 0.04), "");
+}
+
+#[test]
+fn only_what_is_tacked_to_something_else_is_applied() {
+    let corners = [DVec2::ZERO, DVec2::X, DVec2::ONE, DVec2::Y];
+    let mut pattern = Pattern::default();
+    let [a, b, c] = ["a", "b", "c"].map(|name| pattern.add_piece(Piece::polygon(name, &corners)));
+    let side = |piece, edge| EdgeRef { piece, edge };
+    pattern.add_seam(Seam::of_edges([side(a, 1), side(b, 3)], false));
+    let at = |piece| PiecePoint { piece, at: DVec2::splat(0.5) };
+    // Sewn to each other they are one part, and a button is no tack.
+    pattern.add_button(Button::tack(at(a), at(b)));
+    pattern.add_button(Button { tack: false, ..Button::tack(at(a), at(c)) });
+    assert!(applied(&pattern).is_empty());
+    let tack = pattern.add_button(Button::tack(at(b), at(c)));
+    assert_eq!(applied(&pattern), [c].into());
+    pattern.buttons.get_mut(&tack).expect("the tack").open = true;
+    assert!(applied(&pattern).is_empty(), "unfastened it holds nothing");
 }

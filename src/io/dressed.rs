@@ -177,7 +177,7 @@ pub(super) mod tests {
         let at = |x: f64| PiecePoint { piece: id, at: DVec2::new(x, 0.05) };
         let (button, hole) = (at(0.03), at(0.06));
         let (diameter, colour) = (Button::SHIRT, Button::PEARL);
-        pattern.add_button(Button { button, hole, diameter, colour, open: false });
+        pattern.add_button(Button { button, hole, diameter, colour, open: false, tack: false });
         let (garment, problems) = crate::cloth::build(&pattern, 0.03);
         assert!(problems.is_empty(), "{problems:?}");
         let mut positions = vec![DVec3::ZERO; garment.vertex_count];

@@ -74,7 +74,7 @@ impl Sketch {
         let seams = sides
             .filter(|(_, side)| side.piece == id)
             .filter_map(|(seam, side)| Some((seam.0, front.all(side.points(piece, &PLACES)?))));
-        let buttons = pattern.buttons.values();
+        let buttons = pattern.buttons.values().filter(|button| !button.tack);
         let holes = buttons.clone().filter(|b| b.hole.piece == id);
         let size = size_of(piece);
         Self {

@@ -149,6 +149,12 @@ impl Rows<'_> {
 
     fn fastenings(&mut self, pattern: &Pattern) {
         for (id, button) in &pattern.buttons {
+            if button.tack {
+                if button.pieces().contains(&self.id) {
+                    self.add("tack", (*id).into(), None, Words::default(), None);
+                }
+                continue;
+            }
             let mm = mm(button.diameter);
             if button.button.piece == self.id {
                 self.add("button", (*id).into(), None, words!("{mm} mm", mm), Some(button.colour));
@@ -241,7 +247,7 @@ fn line_length(line: &crate::pattern::InternalLine, i: usize) -> f64 {
 /// What is bought for one garment: buttons, zips, elastic, piping and thread that is seen.
 pub fn supplies(pattern: &Pattern, trims: &[TrimRow]) -> Vec<Supply> {
     let mut supplies: Vec<Supply> = Vec::new();
-    for button in pattern.buttons.values() {
+    for button in pattern.buttons.values().filter(|button| !button.tack) {
         let what = words!("button of {mm} mm", mm = mm(button.diameter));
         add(&mut supplies, Supply { what, count: Some(1), length: None, colour: Some(button.colour) });
     }
@@ -314,7 +320,8 @@ mod tests {
         let at = PiecePoint { piece: id, at: DVec2::splat(0.1) };
         for _ in 0..3 {
             let hole = PiecePoint { piece: other, ..at };
-            let button = Button { button: at, hole, diameter: 0.011, colour: Button::PEARL, open: false };
+            let button =
+                Button { button: at, hole, diameter: 0.011, colour: Button::PEARL, open: false, tack: false };
             pattern.add_button(button);
         }
         let sides = [id, other].map(|piece| EdgeRef { piece, edge: 3 });

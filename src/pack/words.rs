@@ -25,6 +25,7 @@ pub fn worked(what: &'static str) -> &'static str {
         "piping" => translated("Piping"),
         "button" => translated("Button"),
         "buttonhole" => translated("Buttonhole"),
+        "tack" => translated("Tack"),
         "zip" => translated("Zip"),
         "graphic" => translated("Print on the piece"),
         _ => None,
@@ -37,6 +38,7 @@ pub fn worked_times(what: &'static str, n: usize) -> String {
     match what {
         "button" => counted(n, "1 button", "{n} buttons"),
         "buttonhole" => counted(n, "1 buttonhole", "{n} buttonholes"),
+        "tack" => counted(n, "1 tack", "{n} tacks"),
         "graphic" => counted(n, "1 graphic", "{n} graphics"),
         what => worked(what).to_owned(),
     }
@@ -137,7 +139,14 @@ mod tests {
         let front = pattern.add_piece(piece);
         let back = pattern.add_piece(Piece::polygon("back", &corners));
         let [button, hole] = [front, back].map(|piece| PiecePoint { piece, at: DVec2::splat(0.1) });
-        pattern.add_button(Button { button, hole, diameter: 0.011, colour: Button::PEARL, open: false });
+        pattern.add_button(Button {
+            button,
+            hole,
+            diameter: 0.011,
+            colour: Button::PEARL,
+            open: false,
+            tack: false,
+        });
         let sides = [front, back].map(|piece| EdgeRef { piece, edge: 3 });
         pattern.add_seam(Seam { zip: Some(Zip::CLOSED), ..Seam::of_edges(sides, false) });
         let mut artwork = Artwork::default();

@@ -31,6 +31,10 @@ pub struct Button {
     pub diameter: f64,
     /// Colour of the button, sRGB.
     pub colour: [u8; 3],
+    /// Whether it is a tack instead: a few stitches, not seen, that hold the place called `hole` in front of the other. What is only
+    /// tacked on, as a bow is, need not go round the body.
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    pub tack: bool,
     /// Whether it is unfastened.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub open: bool,
@@ -41,6 +45,11 @@ impl Button {
     pub const SHIRT: f64 = 0.011;
     /// Colour of mother of pearl, sRGB.
     pub const PEARL: [u8; 3] = [236, 232, 222];
+
+    /// A tack that holds `on`, of a part tacked on, in front of the place `at`.
+    pub fn tack(at: PiecePoint, on: PiecePoint) -> Self {
+        Self { button: at, hole: on, diameter: Self::SHIRT, colour: Self::PEARL, tack: true, open: false }
+    }
 
     /// The pieces that it joins.
     pub fn pieces(&self) -> [PieceId; 2] {

@@ -5,6 +5,8 @@ use glam::DVec2;
 use crate::geometry::polygon::sides;
 use crate::pattern::{EdgeShape, Fold, Piece, curve};
 
+/// Range of the mesh size that a piece may ask for, metres.
+pub const MESH_SIZES: std::ops::RangeInclusive<f64> = 0.003..=0.1;
 /// Rows of triangles across a part that is folded over. With one row it has no points but those of its two borders, and passes
 /// through the cloth under it in between. More rows turn over less surely while they are sewn.
 const ROWS: f64 = 2.0;
@@ -17,8 +19,10 @@ const PLACES: usize = 5;
 /// Chords by which the outline is flattened, metres.
 const CHORDS: f64 = 1e-3;
 
-/// The length of the edges of the mesh of `piece`, metres: `edge_length`, or less where a narrow part is folded over.
+/// The length of the edges of the mesh of `piece`, metres: `edge_length`, or less where the piece asks for it or a narrow part is folded
+/// over.
 pub fn edge_length_of(piece: &Piece, edge_length: f64) -> f64 {
+    let edge_length = piece.mesh_size.map_or(edge_length, |own| own.min(edge_length));
     let outline = (0..piece.edge_count()).filter(|&i| turns_over(piece.edge(i).trims.fold)).map(|i| {
         let (from, to) = piece.edge_ends(i);
         (from, piece.edge(i).shape, to)
@@ -106,6 +110,14 @@ mod tests {
         let parts = (1..8).map(|k| Edge { start: DVec2::new(0.05 * f64::from(k), 0.0), ..of_fold.clone() });
         cut.outline.splice(1..1, parts);
         assert!((edge_length_of(&cut, 0.03) - 0.015).abs() < 1e-12);
+    }
+
+    #[test]
+    fn a_piece_may_ask_for_a_finer_mesh_but_for_no_coarser_one() {
+        let asks = |size: f64| Piece { mesh_size: Some(size), ..strip(0.12, None) };
+        assert_eq!([0.01, 0.05].map(|size| edge_length_of(&asks(size), 0.03)), [0.01, 0.03]);
+        let folded = Piece { mesh_size: Some(0.02), ..strip(0.03, Some(3.0)) };
+        assert!((edge_length_of(&folded, 0.03) - 0.015).abs() < 1e-12, "the fold asks for less");
     }
 
     #[test]

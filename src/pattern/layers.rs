@@ -71,7 +71,7 @@ impl Pattern {
     }
 
     /// Lower left and upper right corner of all pieces on the table, metres. None without pieces.
-    fn bounds(&self) -> Option<(DVec2, DVec2)> {
+    pub(in crate::pattern) fn bounds(&self) -> Option<(DVec2, DVec2)> {
         let on_table = |piece: &Arc<Piece>| {
             let pose = piece.pose;
             piece.flattened(1e-3).into_iter().map(move |p| pose.plane_from_piece(p))

@@ -1,6 +1,7 @@
 //! The flat pattern of a garment: pieces and seams.
 
 pub mod activity;
+pub mod bow;
 mod chains;
 pub mod corner;
 pub mod curve;
@@ -28,6 +29,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::geometry::ids::{ButtonId, PieceId, SeamId};
 pub use crate::geometry::problem::{self, Problem, ProblemKind};
+pub use bow::Bow;
 pub use corner::{AllowanceCorner, Side};
 pub use cut::CutPattern;
 pub use edge::{Edge, EdgeShape};
@@ -76,6 +78,11 @@ impl Pattern {
         let id = ButtonId(self.fresh_id());
         self.buttons.insert(id, button);
         id
+    }
+
+    /// Whether a part is only tacked on, as a bow is.
+    pub fn has_tacks(&self) -> bool {
+        self.buttons.values().any(|button| button.tack && !button.open)
     }
 
     /// Whether a seam is folded so that what is sewn together there turns over ([`Fold::turns_over`]).

@@ -106,6 +106,10 @@ pub struct Piece {
     /// layers; layer 0 is next to the skin.
     #[serde(default, skip_serializing_if = "is_skin")]
     pub layer: u8,
+    /// Greatest length of the edges of its mesh, metres, within [`MESH_SIZES`](crate::pattern::fineness::MESH_SIZES); None: that of the
+    /// garment.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub mesh_size: Option<f64>,
     /// Whether draping and relaxing move the piece.
     #[serde(default, skip_serializing_if = "Activity::is_active")]
     pub activity: Activity,

@@ -10,8 +10,8 @@ use crate::io::words::readable;
 use crate::pattern::edit::{LinePoint, PatternEdit, PointRef, TrimLine};
 use crate::pattern::grading::READY_SIZES;
 use crate::pattern::{
-    AllowanceCorner, Button, Edge, EdgeRef, EdgeShape, Elastic, Fold, GradeRule, Hem, InternalLine, Pattern,
-    Piece, PiecePoint, Piping, PlanePose, RulePoint, Seam, Side, SpacePose, Topstitch, Wrinkle, Zip,
+    AllowanceCorner, Bow, Button, Edge, EdgeRef, EdgeShape, Elastic, Fold, GradeRule, Hem, InternalLine,
+    Pattern, Piece, PiecePoint, Piping, PlanePose, RulePoint, Seam, Side, SpacePose, Topstitch, Wrinkle, Zip,
 };
 use crate::session::{BodyChoice, Command, Dye, Graphic, ImageFile, Repeated, Session, Settings};
 use crate::sim::{Runner, Simulation};
@@ -185,7 +185,7 @@ fn trims([front, back]: [PieceId; 2], seam: SeamId, line: InternalLine) -> Vec<P
         vec![TrimLine::Line { piece: back, line: 0 }, TrimLine::Edge(EdgeRef { piece: front, edge: 1 })];
     let at = |piece| PiecePoint { piece, at: DVec2::new(0.05, 0.05) };
     let (diameter, colour) = (Button::SHIRT, Button::PEARL);
-    let button = Button { button: at(front), hole: at(back), diameter, colour, open: false };
+    let button = Button { button: at(front), hole: at(back), diameter, colour, open: false, tack: false };
     vec![
         PatternEdit::AddLine { piece: back, line },
         PatternEdit::SetFold { lines: lines.clone(), fold: Some(Fold::pressed(2.0)) },
@@ -195,6 +195,7 @@ fn trims([front, back]: [PieceId; 2], seam: SeamId, line: InternalLine) -> Vec<P
         PatternEdit::SetWrinkle { lines: lines[..1].to_vec(), wrinkle: Some(Wrinkle::USUAL) },
         PatternEdit::SetPiping { lines, piping: Some(Piping::USUAL) },
         PatternEdit::AddButtons { buttons: vec![button] },
+        PatternEdit::AddBow { at: at(front), bow: Bow::USUAL },
         PatternEdit::SetZip { seam, zip: Some(Zip { open: 0.4, from_end: true, colour }) },
     ]
 }

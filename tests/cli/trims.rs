@@ -23,7 +23,14 @@ pub fn trimmed() -> Place {
     piece.outline[3].trims.topstitch = Some(Topstitch::default());
     let at = |x: f64| PiecePoint { piece: id, at: DVec2::new(x, 0.15) };
     let (diameter, colour) = (Button::SHIRT, Button::PEARL);
-    pattern.add_button(Button { button: at(0.08), hole: at(0.17), diameter, colour, open: true });
+    pattern.add_button(Button {
+        button: at(0.08),
+        hole: at(0.17),
+        diameter,
+        colour,
+        open: true,
+        tack: false,
+    });
     place.save("ball.toile", &project);
     place.run("dress ball.toile --out out --save dressed.toile");
     assert!(place.names("").contains(&"dressed.toile".to_owned()));

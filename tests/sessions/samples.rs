@@ -242,6 +242,31 @@ fn the_pleats_of_the_skirt_lie_folded_to_one_side_all_round() {
 }
 
 #[test]
+fn the_bow_hangs_before_the_waistband_with_its_loops_aside_and_its_tails_down() {
+    let session = put_on_coarse(Sample::BowSkirt);
+    let band = place(&session, "waistband front", DVec2::new(0.0, 0.0275));
+    let knot = place(&session, "bow knot", DVec2::ZERO);
+    assert!(knot.z > band.z && (knot - band).length() < 0.06, "the knot at {knot} is not before {band}");
+    for (side, way) in [("left", 1.0), ("right", -1.0)] {
+        let tip = place(&session, &format!("bow loop {side}"), DVec2::ZERO);
+        let [out, up] = [(tip.x - knot.x) * way, tip.y - knot.y];
+        println!("{side} loop: {:.0} mm aside, {:.0} mm up", out * 1e3, up * 1e3);
+        assert!(out > 0.04 && up > -0.08, "the {side} loop does not stand off: {tip} beside {knot}");
+        let end = start_of(&session, &format!("bow tail {side}"), "tail end");
+        assert!(knot.y - end.y > 0.25, "the {side} tail does not hang: {end} under {knot}");
+        assert!(end.z > band.z - 0.05, "nor before the skirt");
+    }
+    // Each loop has room between its front and its back: it is a loop, and not two layers.
+    for side in ["left", "right"] {
+        let [front, back] = [-0.05, 0.05].map(|x| {
+            let x = if side == "left" { x } else { -x };
+            place(&session, &format!("bow loop {side}"), DVec2::new(x, 0.0))
+        });
+        assert!(front.distance(back) > 0.004, "the {side} loop is flat");
+    }
+}
+
+#[test]
 fn the_cape_hangs_from_the_shoulders_and_is_open_below_its_closing() {
     let session = put_on_coarse(Sample::Cape);
     let body = mannequin::default();

@@ -9,7 +9,7 @@ use toile::fit::{BodyIndex, measure};
 use toile::geometry::ids::{ButtonId, PieceId};
 use toile::pattern::edit::{PatternEdit, TrimLine};
 use toile::pattern::{
-    Button, Edge, EdgeRef, Elastic, Fold, Hem, InternalLine, PiecePoint, Piping, Topstitch, Wrinkle, Zip,
+    Bow, Button, Edge, EdgeRef, Elastic, Fold, Hem, InternalLine, PiecePoint, Piping, Topstitch, Wrinkle, Zip,
 };
 use toile::session::project_file::{from_bytes, to_bytes};
 use toile::session::recording::Recording;
@@ -84,6 +84,36 @@ fn a_fold_on_a_line_is_drawn_set_undone_recorded_and_kept() {
     assert!(s.apply_alone(none).is_err_and(|why| why.0.contains("no line 4")));
     s.apply_alone(Command::SetDraping { on: true }).expect("draped");
     run(&mut s, 60);
+    again(&mut s);
+}
+
+#[test]
+fn a_bow_is_added_undone_recorded_and_kept_and_its_tacks_go_with_its_knot() {
+    let mut s = draped();
+    let before = hash_of(&mut s);
+    let at = PiecePoint { piece: RIGHT, at: DVec2::new(0.1, 0.15) };
+    let bow = edit(PatternEdit::AddBow { at, bow: Bow::USUAL });
+    s.apply_alone(bow.clone()).expect("a bow");
+    s.update();
+    let count = |s: &Session| {
+        let pattern = &s.document().pattern;
+        [pattern.pieces.len(), pattern.seams.len(), pattern.buttons.len()]
+    };
+    assert_eq!(count(&s), [7, 8, 2]);
+    s.apply_alone(Command::Undo).expect("undone");
+    s.update();
+    assert_eq!(hash_of(&mut s), before);
+    s.apply_alone(Command::Redo).expect("done again");
+    let knot = s.document().pattern.piece_named("bow knot").expect("the knot");
+    s.apply_alone(edit(PatternEdit::DeletePieces { pieces: vec![knot] })).expect("deleted");
+    assert_eq!(count(&s), [6, 1, 0]);
+    s.apply_alone(Command::Undo).expect("undone");
+    let far = edit(PatternEdit::AddBow { at: PiecePoint { at: DVec2::splat(9.0), ..at }, bow: Bow::USUAL });
+    assert!(s.apply_alone(far).is_err_and(|why| why.0.contains("inside a piece")));
+    let wide = edit(PatternEdit::AddBow { at, bow: Bow { width: 3.0, ..Bow::USUAL } });
+    assert!(s.apply_alone(wide).is_err_and(|why| why.0.contains("width of the ribbon")));
+    s.apply_alone(bow).expect("a second one");
+    assert!(s.document().pattern.piece_named("bow knot 2").is_some());
     again(&mut s);
 }
 
@@ -166,6 +196,7 @@ fn wrap_skirt() -> Session {
         diameter: 0.015,
         colour: Button::PEARL,
         open: false,
+        tack: false,
     };
     let buttons = [0.03, 0.1, 0.17].map(button).to_vec();
     s.apply_alone(edit(PatternEdit::AddButtons { buttons })).expect("sewn on");

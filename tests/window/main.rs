@@ -18,6 +18,7 @@ use common::limb;
 
 mod all_sizes;
 mod animations;
+mod bow;
 mod cloth_line;
 #[path = "../common/mod.rs"]
 mod common;

@@ -26,8 +26,9 @@ use crate::geometry::ids::{ButtonId, PieceId, SeamId};
 use crate::geometry::words::{Words, words};
 use crate::pattern::activity::Activity;
 use crate::pattern::{
-    AllowanceCorner, Button, Edge, EdgeRef, EdgeShape, Elastic, Fold, GradeRule, Hem, InternalLine, Pattern,
-    Piece, Piping, PlanePose, RulePoint, Seam, SizeRun, SpacePose, Topstitch, Wrinkle, Zip, curve,
+    AllowanceCorner, Bow, Button, Edge, EdgeRef, EdgeShape, Elastic, Fold, GradeRule, Hem, InternalLine,
+    Pattern, Piece, PiecePoint, Piping, PlanePose, RulePoint, Seam, SizeRun, SpacePose, Topstitch, Wrinkle,
+    Zip, curve,
 };
 pub use cutting::nearest_on_edge;
 pub use fastenings::MOST_BUTTONS;
@@ -175,6 +176,8 @@ pub enum PatternEdit {
     /// Raise cloth to a wrinkle along internal lines, or (None) smooth it out.
     SetWrinkle { lines: Vec<TrimLine>, wrinkle: Option<Wrinkle> },
 
+    /// Tack a bow to a place of a piece ([`Pattern::add_bow`]).
+    AddBow { at: PiecePoint, bow: Bow },
     /// Sew on buttons, each with its buttonhole.
     AddButtons { buttons: Vec<Button> },
     /// Change place, size, colour or state of a button.
@@ -342,10 +345,7 @@ fn carry_out(pattern: &mut Pattern, edit: &PatternEdit) -> Result<Change, Words>
         PatternEdit::SetOutline { piece, outline } => pieces::set_outline(pattern, *piece, outline),
         PatternEdit::Scale { pieces, about, factor } => pieces::scale(pattern, pieces, *about, *factor),
         PatternEdit::Rename { piece, name } => pieces::rename(pattern, *piece, name),
-        PatternEdit::SetLocked { pieces, locked } => {
-            let what = if *locked { labels::LOCK } else { labels::UNLOCK };
-            pieces::set_all(pattern, pieces, what, |p| p.locked = *locked)
-        }
+        PatternEdit::SetLocked { pieces, locked } => pieces::set_locked(pattern, pieces, *locked),
         PatternEdit::SetHidden { pieces, hidden } => {
             let what = if *hidden { labels::HIDE } else { labels::SHOW };
             pieces::set_all(pattern, pieces, what, |p| p.hidden = *hidden)
@@ -393,6 +393,7 @@ fn carry_out(pattern: &mut Pattern, edit: &PatternEdit) -> Result<Change, Words>
             trims::set(pattern, lines, what, |trims| trims.piping = *piping)
         }
         PatternEdit::SetWrinkle { lines, wrinkle } => trims::set_wrinkle(pattern, lines, *wrinkle),
+        PatternEdit::AddBow { at, bow } => pieces::add_bow(pattern, *at, bow),
         PatternEdit::AddButtons { buttons } => fastenings::add_buttons(pattern, buttons),
         PatternEdit::SetButton { id, button } => fastenings::set_button(pattern, *id, button),
         PatternEdit::DeleteButtons { buttons } => fastenings::delete_buttons(pattern, buttons),

@@ -14,7 +14,8 @@ use crate::pattern::edit::lines::{self, Part};
 use crate::pattern::edit::{Carried, Change, find, is_symmetric, points};
 use crate::pattern::layers::MOST_LAYER;
 use crate::pattern::{
-    Edge, EdgeRef, EdgeShape, GradeRule, InternalLine, Pattern, Piece, PlanePose, Seam, SpacePose, curve,
+    Bow, Edge, EdgeRef, EdgeShape, GradeRule, InternalLine, Pattern, Piece, PiecePoint, PlanePose, Seam,
+    SpacePose, curve,
 };
 
 /// Widest seam allowance, metres.
@@ -31,6 +32,18 @@ pub(super) fn add(pattern: &mut Pattern, piece: &Arc<Piece>) -> Change {
     let label = words!("add {name}", name = piece.name);
     pattern.add_piece(piece);
     Change::new(label)
+}
+
+pub(super) fn add_bow(pattern: &mut Pattern, at: PiecePoint, bow: &Bow) -> Result<Change, Words> {
+    let taken: BTreeSet<String> = pattern.pieces.values().map(|piece| piece.name.clone()).collect();
+    for id in pattern.add_bow(at, bow)? {
+        let name = find(pattern, id)?.name.clone();
+        if taken.contains(&name) {
+            let name = fresh_name(pattern, &name);
+            change(pattern, id, |piece| piece.name = name);
+        }
+    }
+    Ok(Change::new(words!("add a bow")))
 }
 
 pub(super) fn delete(pattern: &mut Pattern, ids: &[PieceId]) -> Result<Change, Words> {
@@ -253,6 +266,11 @@ pub(super) fn set_activity(
         Activity::Deactivated => labels::DEACTIVATE,
     };
     set_all(pattern, ids, what, |p| p.activity = activity)
+}
+
+pub(super) fn set_locked(pattern: &mut Pattern, ids: &[PieceId], locked: bool) -> Result<Change, Words> {
+    let what = if locked { labels::LOCK } else { labels::UNLOCK };
+    set_all(pattern, ids, what, |piece| piece.locked = locked)
 }
 
 pub(super) fn set_allowance(pattern: &mut Pattern, ids: &[PieceId], width: f64) -> Result<Change, Words> {

@@ -7,6 +7,7 @@ use crate::geometry::ids::{MarkId, PieceId};
 use crate::geometry::words::{Words, within_quotes, words};
 use crate::io::words::readable_words;
 use crate::pattern::edit::{MOST_BUTTONS, WIDEST_ALLOWANCE, is_symmetric};
+use crate::pattern::fineness::MESH_SIZES;
 use crate::pattern::{Button, Edge, EdgeShape, InternalLine, Pattern, Piece, PlanePose, SpacePose};
 use crate::session::body_choice::BodyChoice;
 use crate::session::command::Rejection;
@@ -193,6 +194,9 @@ fn inside(piece: &Piece) -> Result<(), Rejection> {
         return Err(Rejection(words!("a grainline has two ends within the table")));
     }
     within(words!("the seam allowance"), piece.allowance, 0.0, WIDEST_ALLOWANCE)?;
+    if let Some(size) = piece.mesh_size {
+        within(words!("the mesh size of a piece (m)"), size, *MESH_SIZES.start(), *MESH_SIZES.end())?;
+    }
     match piece.symmetric && !is_symmetric(&piece.outline) {
         true => Err(Rejection(words!("it is called symmetric, but its halves differ"))),
         false => Ok(()),

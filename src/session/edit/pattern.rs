@@ -91,6 +91,10 @@ fn check(edit: &PatternEdit) -> Result<(), Rejection> {
         PatternEdit::SetHem { hem, .. } => sound(hem.and_then(|hem| hem.problem())),
         PatternEdit::SetPiping { piping, .. } => sound(piping.and_then(|piping| piping.problem())),
         PatternEdit::SetWrinkle { wrinkle, .. } => sound(wrinkle.and_then(|wrinkle| wrinkle.problem())),
+        PatternEdit::AddBow { at, bow } => {
+            sound(bow.problem())?;
+            checks::place(at.at)
+        }
         PatternEdit::AddButtons { buttons } => buttons.iter().try_for_each(checks::button),
         PatternEdit::SetButton { button, .. } => checks::button(button),
         PatternEdit::SetZip { zip, .. } => sound(zip.and_then(|zip| zip.problem())),
@@ -169,7 +173,8 @@ fn is_piece_alike(one: &Piece, other: &Piece) -> bool {
         let lines = piece.lines.iter().filter(|line| line.needs_mesh());
         lines.flat_map(|line| line.edges.clone().into_iter().chain([ends_at(line.end)])).collect()
     };
-    is_line_alike(&one.outline, &other.outline)
+    one.mesh_size == other.mesh_size
+        && is_line_alike(&one.outline, &other.outline)
         && one.holes.len() == other.holes.len()
         && one.holes.iter().zip(&other.holes).all(|(a, b)| is_line_alike(a, b))
         && is_line_alike(&worked(one), &worked(other))

@@ -13,6 +13,9 @@ use crate::session::dyes::{Dye, Motif, Print};
 use crate::session::samples::draft::finish;
 use crate::session::{BodyChoice, Document};
 
+/// Height of the waistband that holds a bow, metres.
+pub const SASH: f64 = 0.055;
+
 /// A garment of the gallery: its cut, fabric and colours.
 pub struct Garment {
     cut: Cut,
@@ -45,9 +48,16 @@ impl Cut {
 
 /// A document with `garment` drafted for `body`. Panics where it lacks a landmark, which does not happen: this program builds it.
 pub fn document(garment: &Garment, body: &Mannequin) -> Document {
+    document_with(garment, body, |_| ())
+}
+
+/// The same, with what `add` adds to its pattern.
+pub fn document_with(garment: &Garment, body: &Mannequin, add: impl FnOnce(&mut Pattern)) -> Document {
     let form = Form::of(body).expect("a mannequin has its landmarks");
     let body = BodyChoice::Mannequin(body.measurements);
-    laid_out(garment.cut.drafted(&form), body, garment.fabric, garment.dye)
+    let mut pattern = garment.cut.drafted(&form);
+    add(&mut pattern);
+    laid_out(pattern, body, garment.fabric, garment.dye)
 }
 
 /// A document with `pattern`, its pieces laid out on the table, beside `body`, in this fabric and dye.
@@ -269,6 +279,14 @@ pub fn pleated_skirt() -> Garment {
         length: 0.6,
     };
     Garment { cut: Cut::Pleats(cut), fabric: "polyester", dye: dyed([70, 84, 110]) }
+}
+
+/// A skirt gathered into a wide waistband, without its bow.
+pub fn sash_skirt() -> Garment {
+    let shape = Shape::Gathered { ratio: 1.5 };
+    let waist = Waist { ease: 0.035, band: Some(SASH) };
+    let design = Design { waist, ..skirt(Kind::GatheredSkirt, shape, 0.58) };
+    Garment { cut: drawn(design), fabric: "cotton", dye: dyed([58, 74, 110]) }
 }
 
 /// A cape over shoulders and arms, closed at the throat.

@@ -3,6 +3,7 @@
 //! Every sample but the creature's cloak is drafted from the mannequin's own measurements, so a sample can be drafted for another body,
 //! too.
 
+mod bow;
 mod creature;
 mod draft;
 mod dress;
@@ -79,6 +80,8 @@ pub enum Sample {
     TurnUps,
     /// A skirt of knife pleats.
     PleatedSkirt,
+    /// A gathered skirt with a bow at its waistband.
+    BowSkirt,
     /// A cape, closed at the throat.
     Cape,
     /// A cloak for a seal.
@@ -87,7 +90,7 @@ pub enum Sample {
 
 impl Sample {
     /// All samples, in the order of the menu.
-    pub const ALL: [Self; 26] = [
+    pub const ALL: [Self; 27] = [
         Self::Tshirt,
         Self::Skirt,
         Self::Dress,
@@ -112,6 +115,7 @@ impl Sample {
         Self::CampShirt,
         Self::TurnUps,
         Self::PleatedSkirt,
+        Self::BowSkirt,
         Self::Cape,
         Self::CreatureCloak,
     ];
@@ -146,6 +150,7 @@ impl Sample {
             Self::CampShirt => "Camp shirt",
             Self::TurnUps => "Turn-up shorts",
             Self::PleatedSkirt => "Pleated skirt",
+            Self::BowSkirt => "Skirt with a bow",
             Self::Cape => "Cape",
             Self::CreatureCloak => "Creature's cloak",
         }
@@ -178,6 +183,7 @@ impl Sample {
             Self::CampShirt => "camp-shirt",
             Self::TurnUps => "turn-ups",
             Self::PleatedSkirt => "pleated-skirt",
+            Self::BowSkirt => "bow-skirt",
             Self::Cape => "cape",
             Self::CreatureCloak => "creature-cloak",
         }
@@ -204,6 +210,7 @@ impl Sample {
         let document = match self.cut() {
             Cut::Marked(drafted) => marked(drafted, body),
             Cut::Placed(garment) => gallery::document(&garment(), body),
+            Cut::Bowed => bow::skirt(body),
             Cut::Creature(document) => document(),
         };
         Project { document, dressed: None }
@@ -235,6 +242,7 @@ impl Sample {
             Self::CampShirt => Cut::Placed(gallery::camp_shirt),
             Self::TurnUps => Cut::Placed(gallery::turn_ups),
             Self::PleatedSkirt => Cut::Placed(gallery::pleated_skirt),
+            Self::BowSkirt => Cut::Bowed,
             Self::Cape => Cut::Placed(gallery::cape),
             Self::CreatureCloak => Cut::Creature(creature::cloak),
         }
@@ -245,6 +253,8 @@ impl Sample {
 enum Cut {
     Marked(fn(&Form) -> (Pattern, Marks)),
     Placed(fn() -> gallery::Garment),
+    /// Placed, with a bow.
+    Bowed,
     /// On a body of its own.
     Creature(fn() -> Document),
 }

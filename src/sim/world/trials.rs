@@ -159,11 +159,15 @@ impl World {
         fabrics: Arc<DrapeSource>,
         choice: StartChoice,
     ) -> Result<Self, Words> {
-        let mut left: Vec<Start> =
-            Start::ALL.into_iter().filter(|s| choice.only.is_none_or(|o| o == *s)).collect();
+        let is_marked = source.marks.pairs().next().is_some();
+        // No mark that could be suggested leads what is only tacked on, as a bow is.
+        let is_allowed = |start: &Start| match choice.only {
+            Some(only) => only == *start,
+            None => is_marked || *start == Start::Placement || !source.pattern.has_tacks(),
+        };
+        let mut left: Vec<Start> = Start::ALL.into_iter().filter(is_allowed).collect();
         // What turns over is sewn as it is placed: wrapped round the body a collar stands, and does not turn over any more. Marks
         // that the user made go before.
-        let is_marked = source.marks.pairs().next().is_some();
         let turns_over = source.pattern.turns_over_at_a_seam() || !Turned::new(&source.pattern).is_empty();
         if is_marked || !turns_over {
             left.reverse();

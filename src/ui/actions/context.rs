@@ -213,6 +213,10 @@ impl FrameContext {
             Need::PickedEdge => (picked.edges > 0, "No edge is selected"),
             Need::PickedLine => (picked.edges + picked.lines > 0, "No edge or line is selected"),
             Need::PickedInnerLine => (picked.lines > 0, "No line inside a piece is selected"),
+            Need::BowPlace => (
+                self.selected.is_some_and(|(_, place)| place.on_cloth) || picked.pieces == 1,
+                "Select the place first: a mark on the cloth, a point, a line, an edge or a piece",
+            ),
             Need::Buttons => (picked.buttons, "There is no button"),
             Need::PickedPoint => (picked.points > 0, "No point is selected"),
             Need::PickedSeam => (picked.seams > 0, "No seam is selected"),

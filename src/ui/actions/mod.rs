@@ -148,6 +148,8 @@ pub enum Action {
     ToggleHem,
     TogglePiping,
     ToggleWrinkle,
+    /// Ask for a bow at the selected place.
+    AddBow,
     ToggleZip,
     ToggleFastened,
     TurnSeam,

@@ -114,6 +114,8 @@ pub enum Need {
     PickedLine,
     /// A line inside a piece is selected.
     PickedInnerLine,
+    /// A place for a bow is selected: a mark on the cloth, or something of one piece.
+    BowPlace,
     /// There is a button.
     Buttons,
     /// A point is selected.

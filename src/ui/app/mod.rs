@@ -4,6 +4,7 @@ pub(in crate::ui) mod act;
 pub(in crate::ui) mod all_sizes;
 pub(in crate::ui) mod arrange;
 mod bar;
+mod bow;
 pub(in crate::ui) mod demo;
 pub(in crate::ui) mod depth_of_field;
 pub(in crate::ui) mod drawer;
@@ -503,6 +504,7 @@ impl App {
                 self.shell.pack_language = Some(code);
                 self.ask_file(Purpose::TechPack);
             }
+            Answer::Bow(at, bow) => self.add_bow(at, bow),
             Answer::Body(raw) => {
                 self.prefer(ctx, |p| p.answers.body = Some((raw.unit, raw.up)));
                 if let Err(words) = self.take_body(*raw) {

@@ -83,6 +83,9 @@ impl App {
     /// Applies `action` to the selection.
     pub(in crate::ui) fn change_pattern(&mut self, action: Action) {
         let pattern = Arc::clone(&self.session.document().pattern);
+        if action == Action::AddBow {
+            return self.ask_bow();
+        }
         if action == Action::SelectAll {
             return self.pick(Selection::all(&pattern));
         }

@@ -3,6 +3,7 @@
 use std::sync::Arc;
 
 use crate::marker::Order;
+use crate::pattern::Bow;
 use crate::session::Command;
 use crate::ui::actions::Action;
 use crate::ui::actions::asks::Asks;
@@ -67,6 +68,8 @@ pub struct Shell {
     pub tech_pack: Option<TechPack>,
     /// Code of the language of the last tech pack; None for that of the window.
     pub pack_language: Option<String>,
+    /// Measures of the last bow.
+    pub bow: Option<Bow>,
     /// What the drawer below the panes shows; None when it is closed.
     pub drawer: Option<Drawer>,
     /// The list of recent files.

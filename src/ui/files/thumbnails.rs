@@ -45,6 +45,7 @@ const SAMPLES: [&[u8]; Sample::ALL.len()] = [
     include_bytes!("../../../assets/samples/camp-shirt.png"),
     include_bytes!("../../../assets/samples/turn-ups.png"),
     include_bytes!("../../../assets/samples/pleated-skirt.png"),
+    include_bytes!("../../../assets/samples/bow-skirt.png"),
     include_bytes!("../../../assets/samples/cape.png"),
     include_bytes!("../../../assets/samples/creature-cloak.png"),
 ];

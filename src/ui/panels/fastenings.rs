@@ -121,6 +121,11 @@ fn button_ui(ui: &mut egui::Ui, told: &PanelContext<'_>, id: ButtonId, button: &
         if sign_button(ui, Sign::Cross, true, &words, tr("Take the button off")) {
             asks.push(ask(PatternEdit::DeleteButtons { buttons: vec![id] }));
         }
+        if button.tack {
+            let (piece, other) = (name(&button.button), name(&button.hole));
+            ui.label(RichText::new(say!("tack {n}, {piece} to {other}", n = id.0, piece, other)).size(12.5));
+            return;
+        }
         colour_menu(ui, &say!("Colour of button {n}", n = id.0), button.colour, asks, |colour| {
             dragged(PatternEdit::SetButton { id, button: Button { colour, ..*button } })
         });
@@ -140,8 +145,14 @@ fn buttons_along(pattern: &Pattern, one: TrimLine, other: TrimLine, count: usize
     let (Some(on), Some(holes)) = (places(pattern, one, count), places(pattern, other, count)) else {
         return Vec::new();
     };
-    let button =
-        |(button, hole)| Button { button, hole, diameter: Button::SHIRT, colour: Button::PEARL, open: false };
+    let button = |(button, hole)| Button {
+        button,
+        hole,
+        diameter: Button::SHIRT,
+        colour: Button::PEARL,
+        open: false,
+        tack: false,
+    };
     on.into_iter().zip(holes).map(button).collect()
 }
 

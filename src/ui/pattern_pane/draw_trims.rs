@@ -12,6 +12,9 @@ use crate::pattern::stitches::{Row, Thread, is_trimmed_alike, rows};
 use crate::pattern::{Button, Fold, Pattern, Piping, PlanePose, Trims, Wrinkle};
 use crate::ui::look::theme::colour;
 
+/// Half size of the cross that is drawn for a tack, points.
+const TACK: f32 = 3.5;
+
 /// The rows of stitches of a pattern, kept until it changes.
 #[derive(Clone, Debug, Default)]
 pub struct Rows {
@@ -102,6 +105,10 @@ impl Drawing<'_> {
             let thread = Stroke::new(1.0, self.palette.guide.gamma_multiply(0.7));
             self.painter.line_segment([at.0, hole.0], thread);
         }
+        if button.tack {
+            [at.0, hole.0].into_iter().for_each(|at| self.tack(at));
+            return;
+        }
         let half = (DVec2::X * (button.diameter / 2.0 + 0.0015)).max(DVec2::X * 0.003);
         let slit = [-half, half].map(|by| self.place(hole.1.plane_from_piece(button.hole.at + by)));
         self.painter.line_segment(slit, Stroke::new(2.4, self.palette.guide));
@@ -113,6 +120,13 @@ impl Drawing<'_> {
             {
                 self.painter.circle_filled(at.0 + side * (radius * 0.28), radius * 0.12, rim);
             }
+        }
+    }
+
+    /// Draws a tack at `at`: a cross of two stitches.
+    fn tack(&self, at: Pos2) {
+        for way in [Vec2::splat(TACK), Vec2::new(TACK, -TACK)] {
+            self.painter.line_segment([at - way, at + way], Stroke::new(1.6, self.palette.guide));
         }
     }
 

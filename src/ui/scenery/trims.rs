@@ -239,6 +239,7 @@ mod tests {
             diameter: Button::SHIRT,
             colour: Button::PEARL,
             open: false,
+            tack: false,
         };
         pattern.add_button(button);
         let (garment, state) = hung(&pattern);

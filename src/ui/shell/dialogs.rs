@@ -11,6 +11,8 @@ use egui::{Id, Modal, ScrollArea, TextEdit};
 
 use crate::body::{Unit, UpAxis};
 use crate::io::scale::{DrawingUnit, ScaleQuestion};
+use crate::pattern::bow::{BOW_LOOPS, BOW_TAILS, BOW_WIDTHS};
+use crate::pattern::{Bow, PiecePoint};
 use crate::session::recovery::Left;
 use crate::session::whole_file;
 use crate::ui::actions::Action;
@@ -19,7 +21,9 @@ use crate::ui::files::thumbnails::{Subject, Thumbnails};
 use crate::ui::files::{Purpose, RawBody};
 use crate::ui::language::keys::shortcut_text;
 use crate::ui::language::{number, said, say, tr};
+use crate::ui::panels::fields::length_field;
 use crate::ui::pointer::mouse::Mouse;
+use crate::ui::preferences::units::LengthUnit;
 use crate::ui::scenery::worn::WornFiles;
 
 /// If a native dialog reports "cancelled" sooner than this, it has not been shown at all: no hand clicks that fast.
@@ -44,6 +48,8 @@ pub enum Dialog {
     Recover { found: Vec<(Left, String)> },
     /// Asks for the language of the tech pack: code and name of each, and the chosen code.
     TechPack { languages: Vec<(String, String)>, chosen: String },
+    /// Asks for the measures of a bow.
+    Bow { at: PiecePoint, bow: Bow, unit: LengthUnit },
     /// Tells that another program has changed the project's file since it was opened or saved.
     ChangedOnDisk { path: PathBuf },
     /// Tells that the project could not be saved to the file, and why.
@@ -83,6 +89,8 @@ pub enum Answer {
     Pattern(PathBuf, DrawingUnit),
     /// A tech pack in the language with this code.
     TechPack(String),
+    /// A bow at this place.
+    Bow(PiecePoint, Bow),
 }
 
 impl Answer {
@@ -111,6 +119,7 @@ impl Dialog {
             Self::Shortcuts { mouse, keymap } => shortcuts_ui(ctx, *mouse, keymap),
             Self::Recover { found } => recover_ui(ctx, found, thumbnails),
             Self::TechPack { languages, chosen } => tech_pack_ui(ctx, languages, chosen),
+            Self::Bow { at, bow, unit } => bow_ui(ctx, *at, bow, *unit),
             Self::ChangedOnDisk { path } => changed_ui(ctx, path),
             Self::NotSaved { path, words } => not_saved_ui(ctx, path, words),
             Self::Exists { purpose, path } => exists_ui(ctx, *purpose, path),
@@ -357,6 +366,42 @@ fn tech_pack_ui(ctx: &egui::Context, languages: &[(String, String)], chosen: &mu
         ui.add_space(8.0);
         taken_ui(ui, tr("Choose a file…"), || Answer::TechPack(chosen.clone()))
     });
+    let closed = shown.should_close();
+    shown.inner.or_cancel(closed)
+}
+
+fn bow_ui(ctx: &egui::Context, at: PiecePoint, bow: &mut Bow, unit: LengthUnit) -> Answer {
+    let shown = Modal::new(Id::unique("bow")).show(ctx, |ui| {
+        ui.set_width(360.0);
+        ui.heading(tr("Bow"));
+        ui.add_space(4.0);
+        ui.label(tr("A knot, two loops and two tails of ribbon, sewn together and tacked to the place."));
+        ui.add_space(6.0);
+        // Not in a grid: that asks for a second pass, in which the click that opened the dialog would close it again.
+        let rows = [
+            ("Width of the ribbon", &mut bow.width, BOW_WIDTHS),
+            ("Length of the loops", &mut bow.loops, BOW_LOOPS),
+            ("Length of the tails", &mut bow.tails, BOW_TAILS),
+        ];
+        for (text, metres, range) in rows {
+            ui.horizontal(|ui| {
+                let layout = egui::Layout::left_to_right(egui::Align::Center);
+                let label = ui.allocate_ui_with_layout(egui::vec2(170.0, 22.0), layout, |ui| {
+                    ui.set_min_width(170.0);
+                    ui.label(tr(text))
+                });
+                if let Some(new) = length_field(ui, ("bow", text), &label.inner, *metres, unit) {
+                    *metres = new.clamp(*range.start(), *range.end());
+                }
+            });
+        }
+        bow.loops = bow.loops.max(bow.width);
+        ui.add_space(4.0);
+        ui.label(tr("Crisp cloth holds its loops up; in soft cloth they hang."));
+        ui.add_space(8.0);
+        taken_ui(ui, tr("Add the bow"), || Answer::Bow(at, *bow))
+    });
+    to_top(ctx, &shown);
     let closed = shown.should_close();
     shown.inner.or_cancel(closed)
 }

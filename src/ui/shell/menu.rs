@@ -200,13 +200,14 @@ pub fn selection_ui(ui: &mut egui::Ui, now: &FrameContext, asks: &mut Asks) {
 }
 
 /// What is worked along edges, lines and seams.
-const TRIMS: [Action; 8] = [
+const TRIMS: [Action; 9] = [
     Action::ToggleFold,
     Action::ToggleElastic,
     Action::ToggleTopstitch,
     Action::ToggleHem,
     Action::TogglePiping,
     Action::ToggleWrinkle,
+    Action::AddBow,
     Action::ToggleZip,
     Action::ToggleFastened,
 ];

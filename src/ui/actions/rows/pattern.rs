@@ -164,6 +164,13 @@ pub const ROWS: &[Row] = &[
         "Raise the cloth to a soft wrinkle along the selected lines, or smooth it out",
     )
     .needs(&[Need::PickedInnerLine]),
+    row(
+        "Pattern",
+        Action::AddBow,
+        "Bow…",
+        "Tack a bow of ribbon to the selected place: a mark on the cloth, a point, a line, an edge or the middle of a piece",
+    )
+    .needs(&[Need::BowPlace]),
     row("Pattern", Action::ToggleZip, "Zip", "Put a zip into the selected seams, or take it out")
         .needs(&[Need::PickedSeam]),
     row("Pattern", Action::ToggleFastened, "Fasten buttons", "Fasten all buttons, or unfasten them")
