@@ -8,7 +8,6 @@ use std::f64::consts::{PI, TAU};
 use glam::{DMat3, DVec3};
 
 use crate::drape::sheet::Sheet;
-use crate::pattern::Fold;
 
 /// Damping of hinges in small steps, as stiffness-proportional damping, s: the swing of a pressed flap dies after a few tenths of
 /// a second.
@@ -50,13 +49,13 @@ impl Folds {
         Self { hinges }
     }
 
-    /// Those that turn over, and are turned over with the cloth at `x`.
-    pub fn turned_over(mut self, x: &[DVec3]) -> Self {
-        let is_over = |hinge: &Hinge| {
+    /// Those that are nearer to their angle than to flat with the cloth at `x`.
+    pub fn folded(mut self, x: &[DVec3]) -> Self {
+        let is_folded = |hinge: &Hinge| {
             let now = hinge.angle_at(x).unwrap_or(0.0);
-            hinge.angle.abs() > Fold::OVER && now.abs() > Fold::OVER && (now > 0.0) == (hinge.angle > 0.0)
+            hinge.off(now).abs() < now.abs()
         };
-        self.hinges.retain(is_over);
+        self.hinges.retain(is_folded);
         self
     }
 

@@ -239,8 +239,7 @@ impl DrapedGarment {
         let of_triangle: Vec<&Fabric> = laid.iter().map(|&t| fabric(t)).collect();
         let beside = |sheet: &Sheet, v: u32| of_triangle[sheet.adjacency.vertex_triangles.of(v)[0] as usize];
         let positions: Vec<DVec3> = vertices.iter().map(|&v| cloth.positions[v as usize]).collect();
-        let open = sewn.is_some().then_some(&positions[..]);
-        let (sheet, mut worked) = Worked::new(sheet, &garment, &own, beside, open);
+        let (sheet, mut worked) = Worked::new(sheet, &garment, &own, beside, sewn.map(|_| &positions[..]));
         let mass = weighted(masses(&sheet, &of_triangle), &garment, &own, sewn.is_some());
         let most = |of: fn(&Fabric) -> f64| of_triangle.iter().map(|f| of(f)).fold(0.0, f64::max);
         let (thickness, damping) = (most(|f| f.thickness_m), most(|f| f.damping_per_s));

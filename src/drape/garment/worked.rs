@@ -44,10 +44,10 @@ impl Worked {
             ends.iter().all(|&v| v != u32::MAX).then_some(ends)
         };
         let trims = &garment.trims;
-        let folds = trims.folds.iter();
+        let folds = trims.folds.iter().filter(|f| open.is_none() || f.what.turns_over());
         let folds = folds.filter_map(|f| Some((ends(f.corners)?, f.what.angle, f.what.strength)));
         if let Some(positions) = open {
-            let folds = Folds::new(&sheet, folds).turned_over(positions);
+            let folds = Folds::new(&sheet, folds).folded(positions);
             let sheet =
                 sheet.creased(folds.hinges().iter().map(|hinge| [hinge.vertices[0], hinge.vertices[1]]));
             return (sheet, Self { folds, bands: Bands::default(), buttons: Vec::new() });
