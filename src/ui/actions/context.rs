@@ -43,6 +43,8 @@ pub struct FrameContext {
     pub sizes: bool,
     /// Number of pieces in the pattern.
     pub pieces: usize,
+    /// Whether the pattern has seams.
+    pub sewn: bool,
     /// Number of marks on the cloth and on the body.
     pub marks: [usize; 2],
     /// Number of pins in the cloth.
@@ -145,6 +147,11 @@ impl FrameContext {
         row.needs.iter().find_map(|&need| self.lacks(need, action))
     }
 
+    /// The message that `action` is disabled, and why; None when it is enabled.
+    pub fn refusal(&self, action: Action) -> Option<String> {
+        self.why_not(action).map(|why| format!("{}: {why}.", action.row().label()))
+    }
+
     /// The reason to show if `need` of `action` is not met; None when it is met.
     fn lacks(&self, need: Need, action: Action) -> Option<&'static str> {
         let picked = &self.picked;
@@ -171,9 +178,14 @@ impl FrameContext {
             Need::PlacedFirst => {
                 (self.placed, "No piece stands round the body: place some first (Garment › Place pieces)")
             }
-            Need::PlacedOrPairs => {
-                (self.placed || self.has_pairs(), "No piece stands round the body, and there are no marks")
-            }
+            Need::PlacedOrPairs if self.sewn => (
+                self.placed || self.has_pairs(),
+                "No piece stands round the body, and there are no marks: place the pieces (Garment › Place pieces) or paint marks, then dress",
+            ),
+            Need::PlacedOrPairs => (
+                self.placed || self.has_pairs(),
+                "There are neither seams nor marks, and no piece stands round the body: sew the edges (Pattern › Tools › Sew), place the pieces (Garment › Place pieces), then dress",
+            ),
             Need::Pairs => (self.has_pairs(), "Paint at least one mark on a piece and one on the body first"),
             Need::NewPairs => (
                 self.has_pairs(),

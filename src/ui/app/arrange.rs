@@ -175,6 +175,7 @@ impl App {
             paper: self.preferences.paper,
             laser: self.laser,
             picked: Picked::new(&document.pattern, &self.picks.selection),
+            sewn: !document.pattern.seams.is_empty(),
             twisted: self.pattern_pane.has_twisted(),
             snapping: self.snapping,
             highlight: self.highlight(),
