@@ -9,6 +9,7 @@ use crate::cli::arguments::{BodyFile, InputOptions, SizeOptions};
 use crate::cli::failure::Failure;
 use crate::cli::files::{MANNEQUIN, is_sample, name_of, read, sample_name, table_of_sizes};
 use crate::cli::{formats, output};
+use crate::geometry::names;
 use crate::geometry::polygon::signed_area;
 use crate::io::scale::DrawingUnit;
 use crate::io::sizes::{self, SizesError};
@@ -118,7 +119,8 @@ pub fn content(path: &Path, how: BodyFile, scale: Option<DrawingUnit>) -> Result
 }
 
 fn sample(path: &Path, name: &str) -> Result<Project, Failure> {
-    let Some(sample) = Sample::ALL.into_iter().find(|sample| sample.file_stem() == name) else {
+    let found = names::found(Sample::ALL.map(Sample::file_stem), name).map(|i| Sample::ALL[i]);
+    let Some(sample) = found else {
         let names = Sample::ALL.map(Sample::file_stem).join(", ");
         return Err(Failure::input(path, format!("there is no such sample; there are {names}")));
     };
