@@ -131,9 +131,10 @@ fn dye_ui(ui: &mut Ui, artwork: &Artwork, own: Dye, seen: Option<[u8; 3]>, is_fo
             }
         });
         ui.horizontal(|ui| {
+            let label = ui.label(tr("Repeat"));
             let mut millimetres = print.repeat_m * 1e3;
             let value = drag_value(&mut millimetres).range(1.0..=2000.0).suffix(" mm").max_decimals(1);
-            if ui.add(value).on_hover_text(tr("Length of a repeat")).changed() {
+            if ui.add(value).labelled_by(label.id).on_hover_text(tr("Length of a repeat")).changed() {
                 print.repeat_m = millimetres / 1e3;
             }
         });

@@ -24,6 +24,9 @@ use crate::ui::panels::sizes::SizesPanel;
 use crate::ui::panels::tape::TapePanel;
 use crate::ui::panels::tight::tight_ui;
 
+/// Width that is left free for the scroll bar, points.
+const BAR: f32 = 8.0;
+
 /// Draws the panel. Returns its first widget, for the keyboard focus.
 pub fn side_panel_ui(
     ui: &mut egui::Ui,
@@ -37,6 +40,8 @@ pub fn side_panel_ui(
     let mut first = None;
     let (pattern, sizes) = pattern;
     ScrollArea::vertical().auto_shrink([false, false]).show(ui, |ui| {
+        // The scroll bar floats over what is at the right edge.
+        ui.set_max_width(ui.available_width() - BAR);
         // The section of the chosen tool comes first.
         let on_pattern =
             !matches!(told.now.tool, Tool::Mark | Tool::Erase | Tool::Drag(_) | Tool::Pin | Tool::Bone);
