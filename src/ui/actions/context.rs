@@ -69,6 +69,8 @@ pub struct FrameContext {
     pub proposed: usize,
     /// Whether there is a body that cloth can be put on.
     pub has_body: bool,
+    /// Whether the body has joints that take poses by name.
+    pub has_joints: bool,
     /// Whether there is cloth on the body.
     pub dressed: bool,
     /// Whether the cloth is the result of a wrap, which can be removed again.
@@ -169,6 +171,9 @@ impl FrameContext {
                 (self.sizes, "The pattern has no sizes: give it some first (Sizes of the pattern)")
             }
             Need::Body => (self.has_body, "There is no body"),
+            Need::Joints => {
+                (self.has_joints, "The body is from a file: only the mannequin takes poses by name")
+            }
             Need::Dressed => (self.dressed, "There is no cloth on the body"),
             Need::Growing => (self.wrapping, "Nothing is growing"),
             Need::NotGrowing => (!self.wrapping, "The cloth is growing"),

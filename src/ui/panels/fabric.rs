@@ -205,11 +205,12 @@ fn matches_ui(ui: &mut Ui, told: &PanelContext<'_>) {
         return;
     };
     let found = print_matches(garment, &told.document.pattern, &told.document.dyes);
-    let (meeting, off): (Vec<_>, Vec<_>) = found.iter().partition(|found| found.offset * 1e3 < MATCHES_MM);
+    let (meeting, off): (Vec<PrintMatch>, Vec<PrintMatch>) =
+        found.into_iter().partition(|found| found.offset * 1e3 < MATCHES_MM);
     for PrintMatch { seam, motif, offset } in off {
         let words = say!(
             "{place}: {print} are {mm} mm off",
-            place = naming::seam_place(&told.document.pattern, *seam),
+            place = naming::seam_place(&told.document.pattern, seam),
             print = tr(motif.name()),
             mm = format!("{:.0}", offset * 1e3)
         );
