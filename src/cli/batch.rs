@@ -58,7 +58,8 @@ enum Outcome {
     Failed,
 }
 
-/// Dresses all projects of the chosen part. Its failure is that of the project with the greatest exit code, of several the first.
+/// Dresses all projects of the chosen part. Its failure is that of the project with the greatest exit code, of several the first;
+/// where the worst is that garments are not dressed, which their lines tell, it counts them.
 pub fn batch(arguments: &Dress) -> Result<(), Failure> {
     if arguments.save.is_some() || arguments.record.is_some() {
         let words = "--save and --record take one project, not several; a line of a list can save";
@@ -70,7 +71,7 @@ pub fn batch(arguments: &Dress) -> Result<(), Failure> {
         output::make_folder(&arguments.out)?;
         lines = Some(Lines::open(&arguments.out, arguments.shard)?);
     }
-    let (start, mut worst) = (Instant::now(), None::<Failure>);
+    let (start, mut worst, mut not_dressed) = (Instant::now(), None::<Failure>, 0);
     for (i, job) in jobs.iter().enumerate() {
         if arguments.progress || output::is_watched() {
             let (name, so_far) = (&job.name, start.elapsed().as_secs_f64());
@@ -92,12 +93,17 @@ pub fn batch(arguments: &Dress) -> Result<(), Failure> {
             lines.add(&line)?;
         }
         output::say(if arguments.json { &line } else { &told.words });
+        not_dressed += usize::from(matches!(told.failure, Some(Failure::Faults(_))));
         let code = |failure: &Option<Failure>| failure.as_ref().map_or(0, Failure::exit_code);
         if code(&told.failure) > code(&worst) {
             worst = told.failure;
         }
     }
-    worst.map_or(Ok(()), Err)
+    match worst {
+        None => Ok(()),
+        Some(Failure::Faults(_)) => Err(Failure::not_dressed(not_dressed, jobs.len())),
+        Some(failure) => Err(failure),
+    }
 }
 
 /// Dresses one project. A panic counts as its failure, so that the projects after it are still dressed.
@@ -124,7 +130,7 @@ impl<'a> Told<'a> {
         let times = Times { seconds: begun.seconds(), processor_seconds: begun.processor_seconds() };
         match done {
             Ok(Done { verdict, resumed, .. }) => {
-                let failure = verdict.failed_check().map(Failure::Check);
+                let failure = verdict.failure();
                 let before = if resumed { " (done before)" } else { "" };
                 let words = format!("{verdict}{before}");
                 Self { job, verdict: Some(verdict), resumed, failure, times, words }

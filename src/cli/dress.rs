@@ -13,8 +13,8 @@ pub fn dress(arguments: &Dress) -> Result<(), Failure> {
     let Done { verdict, report, resumed } = dress_one(project, &arguments.out, arguments)?;
     output::say(&match (arguments.json, resumed) {
         (true, _) => report,
-        (false, false) => verdict.to_string(),
-        (false, true) => format!("{verdict} (done before)"),
+        (false, false) => verdict.summary(),
+        (false, true) => format!("{} (done before)", verdict.summary()),
     });
-    verdict.failed_check().map_or(Ok(()), |words| Err(Failure::Check(words)))
+    verdict.failure().map_or(Ok(()), Err)
 }

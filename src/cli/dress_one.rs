@@ -10,6 +10,7 @@ use crate::cli::made_from::made_from;
 use crate::cli::seconds::{Begun, Seconds};
 use crate::cli::verdict::Verdict;
 use crate::cli::{input, output, report, run};
+use crate::pattern::Pattern;
 use crate::session::{Command, Session, project_file};
 use crate::sim::{Start, StartChoice, Started, Tried};
 
@@ -79,11 +80,26 @@ fn dress_by(
     let document = session.document();
     let is_placed = document.pattern.pieces.values().any(|piece| piece.placement.is_some());
     let has_marks = document.marks.pairs().next().is_some() && arguments.start != Some(Start::Placement);
-    if has_marks || !(is_placed || arguments.start.is_some()) {
+    if !(has_marks || is_placed || arguments.start.is_some() || document.pattern.pieces.is_empty()) {
+        return Err(Failure::input(project, no_start(&document.pattern)));
+    }
+    if has_marks || document.pattern.pieces.is_empty() {
         return wrap(session, project, seconds);
     }
     let choice = StartChoice { only: arguments.start, draped: arguments.drape };
     begin(session, project, seconds, Command::Dress { choice })
+}
+
+/// Why a pattern without placed pieces and without marks cannot be dressed, and what to do first.
+fn no_start(pattern: &Pattern) -> String {
+    let (seams, first) = match pattern.seams.is_empty() {
+        true => ("no seams, ", "sew its edges and place its pieces (Shift+B)"),
+        false => ("", "place its pieces (Shift+B) or paint marks"),
+    };
+    format!(
+        "it has {seams}no piece placed in space and no pair of marks: {first} in the window, then dress; \
+         marks in a file are given with --marks"
+    )
 }
 
 /// A warning where no start ended without a fault, or none when it was draped.

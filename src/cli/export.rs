@@ -6,6 +6,7 @@ use crate::cli::{files, input, output, run};
 use crate::io::pattern_formats::{self, PatternFormat, endings};
 use crate::io::rul;
 use crate::io::words::any_of;
+use crate::session::{Document, Dye};
 use crate::ui::scenery::fabric_textures::USUAL_SIDE;
 use crate::ui::scenery::worn::{self, Worn};
 
@@ -59,6 +60,10 @@ pub fn export(arguments: &Export) -> Result<(), Failure> {
     let worn = Worn { garment, cloth, pattern: &source.pattern, document: session.document() };
     // The texture coordinates of an OBJ without textures are metres of the pattern.
     let options = arguments.textures.worn(if ending == "obj" { 0 } else { USUAL_SIDE });
+    if options.side == 0 && arguments.textures.textures.is_none() && has_pictures(session.document()) {
+        let words = "prints, images and graphics are not in it: --textures 2048 writes them beside it";
+        output::complain(&format!("{}: note: {words}", arguments.output.display()));
+    }
     let body = snapshot.body.as_ref().map(|b| &b.mesh);
     let written = worn.files(options, body, &arguments.output).map_err(|why| Failure::Limit(why.into()))?;
     for line in &written.left_out {
@@ -68,6 +73,13 @@ pub fn export(arguments: &Export) -> Result<(), Failure> {
         [(path, bytes)] => output::write(path, bytes),
         files => output::write_together(files),
     }
+}
+
+/// Whether the cloth shows more than plain colours: a print, an image or a graphic on some piece.
+fn has_pictures(document: &Document) -> bool {
+    let mut dyes = document.pattern.pieces.keys().map(|&piece| document.dyes.of(piece));
+    let is_pictured = |dye: Dye| dye.print.is_some() || dye.image.is_some();
+    !document.artwork.graphics.is_empty() || dyes.any(is_pictured)
 }
 
 /// Writes a built-in table of sizes.

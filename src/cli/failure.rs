@@ -13,6 +13,9 @@ pub enum Failure {
     /// The work was done, and a check of its result failed.
     #[error("{0}")]
     Check(String),
+    /// A garment is not dressed: its faults, each with its place.
+    #[error("{}", .0.join("; "))]
+    Faults(Vec<String>),
     /// The arguments contradict each other.
     #[error("{0}")]
     Usage(String),
@@ -51,10 +54,16 @@ impl Failure {
         Self::File { path: path.to_owned(), error }
     }
 
+    /// The failure of several garments, of which `count` of `all` are not dressed.
+    pub fn not_dressed(count: usize, all: usize) -> Self {
+        let are = if count == 1 { "is" } else { "are" };
+        Self::Check(format!("{count} of {all} {are} not dressed"))
+    }
+
     /// The exit code, as in the README's table.
     pub fn exit_code(&self) -> u8 {
         match self {
-            Self::Check(_) => 1,
+            Self::Check(_) | Self::Faults(_) => 1,
             Self::Usage(_) => 2,
             Self::Input { .. } => 3,
             Self::Limit(_) => 4,

@@ -4,6 +4,7 @@ use std::path::Path;
 
 use crate::cli::failure::Failure;
 use crate::draft::SIZE_TABLES;
+use crate::geometry::names;
 use crate::io::{FILE_BYTES, rul};
 use crate::session::whole_file;
 
@@ -32,7 +33,8 @@ pub fn table_name(path: &Path) -> Option<&str> {
 /// The table of sizes that `path` names, CSV: a file, or one that is built in.
 pub fn table_of_sizes(path: &Path) -> Result<Vec<u8>, Failure> {
     let Some(name) = table_name(path) else { return read(path) };
-    let found = SIZE_TABLES.iter().find(|table| table.name == name);
+    let found =
+        names::found(SIZE_TABLES.iter().map(|table| table.name), name).and_then(|i| SIZE_TABLES.get(i));
     found.map(|table| table.csv().into_bytes()).ok_or_else(|| {
         let names = SIZE_TABLES.map(|table| table.name).join(", ");
         Failure::input(path, format!("there is no such table of sizes; there are {names}"))

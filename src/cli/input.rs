@@ -9,10 +9,12 @@ use crate::cli::arguments::{BodyFile, InputOptions, SizeOptions};
 use crate::cli::failure::Failure;
 use crate::cli::files::{MANNEQUIN, is_sample, name_of, read, sample_name, table_of_sizes};
 use crate::cli::{formats, output};
+use crate::geometry::names;
 use crate::geometry::polygon::signed_area;
+use crate::io::gltf;
+use crate::io::pattern_formats::{self, PatternFormat};
 use crate::io::scale::DrawingUnit;
 use crate::io::sizes::{self, SizesError};
-use crate::io::{gltf, pattern_formats};
 use crate::pattern::{Pattern, Piece};
 use crate::session::body::{Body, surface_of};
 use crate::session::carry::carried;
@@ -110,15 +112,22 @@ pub fn content(path: &Path, how: BodyFile, scale: Option<DrawingUnit>) -> Result
             .map(|project| Content::Project(Box::new(project)))
             .map_err(|e| project_failure(path, e));
     }
-    let is_pattern = !gltf::is_gltf(&bytes) && pattern_formats::format(&bytes).is_some();
+    let is_pattern = !gltf::is_gltf(&bytes)
+        && (pattern_formats::format(&bytes).is_some() || (is_called_pattern(path) && bytes.contains(&0)));
     if bytes.trim_ascii().is_empty() || is_pattern {
         return formats::pattern(path, &bytes, scale).map(Content::Pattern);
     }
     formats::body(path, &bytes, how).map(Content::Body)
 }
 
+/// Whether the name of `path` ends like that of a pattern file.
+fn is_called_pattern(path: &Path) -> bool {
+    path.extension().and_then(|ending| PatternFormat::of_ending(ending.to_str()?)).is_some()
+}
+
 fn sample(path: &Path, name: &str) -> Result<Project, Failure> {
-    let Some(sample) = Sample::ALL.into_iter().find(|sample| sample.file_stem() == name) else {
+    let found = names::found(Sample::ALL.map(Sample::file_stem), name).map(|i| Sample::ALL[i]);
+    let Some(sample) = found else {
         let names = Sample::ALL.map(Sample::file_stem).join(", ");
         return Err(Failure::input(path, format!("there is no such sample; there are {names}")));
     };

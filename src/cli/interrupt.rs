@@ -24,10 +24,14 @@ pub fn check() -> Result<(), Failure> {
     }
 }
 
-/// Reports why the program ends. A signal is reported once, by whichever thread is first.
+/// Reports why the program ends, each fault of a garment in a line of its own. A signal is reported once, by whichever thread is first.
 pub fn tell(failure: &Failure) {
-    if !matches!(failure, Failure::Signal(_)) || !TOLD.swap(true, Ordering::Relaxed) {
-        output::complain(&format!("toile: {failure}"));
+    match failure {
+        Failure::Faults(faults) => {
+            faults.iter().for_each(|words| output::complain(&format!("toile: {words}")))
+        }
+        Failure::Signal(_) if TOLD.swap(true, Ordering::Relaxed) => {}
+        _ => output::complain(&format!("toile: {failure}")),
     }
 }
 

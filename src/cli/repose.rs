@@ -13,7 +13,7 @@ use crate::cli::{dress_one, files, formats, input, interrupt, output, report, ru
 use crate::io::joints;
 use crate::session::{BodyChoice, Command, Notice, Session, project_file};
 
-/// Carries the garment to each pose in turn, always from the dressed one. The first pose that fails a check gives the exit code.
+/// Carries the garment to each pose in turn, always from the dressed one. A pose that fails a check gives the exit code.
 pub fn repose(arguments: &Repose) -> Result<(), Failure> {
     let several = count(arguments) > 1;
     if several && arguments.save.is_some() {
@@ -33,7 +33,7 @@ pub fn repose(arguments: &Repose) -> Result<(), Failure> {
     let mut seconds = Seconds { load: start.seconds(), ..Seconds::default() };
     dress_first(&mut session, arguments, &mut seconds)?;
     let dressed = session.project();
-    let mut first_failure = None;
+    let (mut failures, all) = (Vec::new(), poses.len());
     for (i, (pose, from)) in poses.into_iter().enumerate() {
         let path = Path::new(&from);
         interrupt::check()?;
@@ -47,13 +47,21 @@ pub fn repose(arguments: &Repose) -> Result<(), Failure> {
         report.inputs = input.files.iter().cloned().chain([from.clone()]).collect();
         report.finish(&folder, start)?;
         let verdict = report.verdict()?;
-        output::say(&if arguments.json { printed(&report, several)? } else { verdict.to_string() });
-        first_failure = first_failure.or(verdict.failed_check());
+        output::say(&match (arguments.json, several) {
+            (true, _) => printed(&report, several)?,
+            (false, true) => verdict.to_string(),
+            (false, false) => verdict.summary(),
+        });
+        failures.extend(verdict.failure());
     }
     if let Some(path) = &arguments.save {
         project_file::save(path, &session.project()).map_err(|e| input::project_failure(path, e))?;
     }
-    first_failure.map_or(Ok(()), |words| Err(Failure::Check(words)))
+    match failures.pop() {
+        None => Ok(()),
+        Some(_) if several => Err(Failure::not_dressed(failures.len() + 1, all)),
+        Some(failure) => Err(failure),
+    }
 }
 
 /// The number of poses that are given.

@@ -10,6 +10,8 @@ use crate::cli::cloth_options::ClothOptions;
 use crate::cli::failure::Failure;
 use crate::cli::seconds::Seconds;
 use crate::cli::{interrupt, output};
+use crate::cloth::Fabric;
+use crate::geometry::names;
 use crate::session::{Command, Dye, Notice, Project, Session};
 use crate::sim::{Runner, Simulation};
 use crate::wrap::Phase;
@@ -65,7 +67,7 @@ pub fn choose_cloth(session: &mut Session, options: &ClothOptions) -> Result<(),
         choose(Command::WearColourway { name })?;
     }
     if fabric.is_some() {
-        choose(Command::SetFabric { piece: None, fabric: fabric.clone() })?;
+        choose(Command::SetFabric { piece: None, fabric: fabric.as_deref().map(preset) })?;
     }
     if colour.is_some() || print.is_some() {
         let all = session.document().dyes.all;
@@ -75,6 +77,13 @@ pub fn choose_cloth(session: &mut Session, options: &ClothOptions) -> Result<(),
             .map_err(|why| Failure::Usage(why.0.into()))?;
     }
     art.choose(session)
+}
+
+/// The name of the preset that `typed` is in any case; what is none is left for the session to refuse.
+fn preset(typed: &str) -> String {
+    let presets = Fabric::presets();
+    names::found(presets.iter().map(|fabric| fabric.name.as_str()), typed)
+        .map_or_else(|| typed.to_owned(), |i| presets[i].name.clone())
 }
 
 /// The simulation of a session that runs inline.

@@ -5,6 +5,7 @@ use std::path::Path;
 
 use serde::{Deserialize, Deserializer, Serialize};
 
+use crate::cli::failure::Failure;
 use crate::fit::{Penetration, Seams, Strain, Tight};
 use crate::pattern::Problem;
 use crate::sim::Start;
@@ -114,34 +115,63 @@ impl Verdict {
         self.strain.p99
     }
 
+    /// All faults with their places; none when the project is dressed.
+    fn told(&self) -> Vec<String> {
+        self.faults.iter().map(|f| format!("{}: {}", f.problem.place, f.problem.words)).collect()
+    }
+
     /// All faults with their places in one message; None when the project is dressed.
     pub fn failed_check(&self) -> Option<String> {
-        let words = |f: &Fault| format!("{}: {}", f.problem.place, f.problem.words);
-        let all: Vec<String> = self.faults.iter().map(words).collect();
-        (!all.is_empty()).then(|| all.join("; "))
+        self.failure().map(|failure| failure.to_string())
+    }
+
+    /// All faults as a failure, which is told a line for each; None when the project is dressed.
+    pub fn failure(&self) -> Option<Failure> {
+        let told = self.told();
+        (!told.is_empty()).then_some(Failure::Faults(told))
+    }
+
+    /// A summary in one line, for people, that counts the faults; what they are is told by [`Self::failure`].
+    pub fn summary(&self) -> String {
+        let outcome = match self.faults.len() {
+            0 => "dressed".to_owned(),
+            1 => "not dressed, 1 fault".to_owned(),
+            n => format!("not dressed, {n} faults"),
+        };
+        format!("{}: {outcome}, {}", self.name, self.figures())
+    }
+
+    /// The figures of a summary.
+    fn figures(&self) -> String {
+        let tight = self.tight.as_ref().map(|tight| format!(" (tightest: {tight})")).unwrap_or_default();
+        let millimetres = self.mark_error.max * 1000.0;
+        let start = match &self.start {
+            Some(TakenStart { taken: Start::Placement, .. }) => ", sewn from placement".to_owned(),
+            Some(TakenStart { taken: Start::Marks, draped: true }) => {
+                ", by suggested marks, draped".to_owned()
+            }
+            Some(TakenStart { taken: Start::Marks, draped: false }) => ", by suggested marks".to_owned(),
+            None if self.mark_error.points > 0 => format!(", marks met within {millimetres:.1} mm"),
+            None => String::new(),
+        };
+        let (triangles, percent) = (self.triangles, self.strain.p99 * 100.0);
+        let seconds = self.times.seconds;
+        format!("{triangles} triangles, strain p99 {percent:.1} %{tight}{start}, {seconds:.2} s")
     }
 }
 
-/// A summary in one line, for people.
+/// A summary in one line, for people, with the first fault.
 impl std::fmt::Display for Verdict {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        match self.failed_check() {
-            None => write!(f, "{}: dressed, ", self.name)?,
-            Some(words) => write!(f, "{}: not dressed: {words}; ", self.name)?,
+        let told = self.told();
+        let more = match told.len() {
+            0 | 1 => String::new(),
+            2 => " (and 1 more fault)".to_owned(),
+            n => format!(" (and {} more faults)", n - 1),
+        };
+        match told.first() {
+            None => write!(f, "{}: dressed, {}", self.name, self.figures()),
+            Some(first) => write!(f, "{}: not dressed: {first}{more}; {}", self.name, self.figures()),
         }
-        write!(f, "{} triangles, strain p99 {:.1} %", self.triangles, self.strain.p99 * 100.0)?;
-        if let Some(tight) = &self.tight {
-            write!(f, " (tightest: {tight})")?;
-        }
-        let millimetres = self.mark_error.max * 1000.0;
-        match &self.start {
-            Some(TakenStart { taken: Start::Placement, .. }) => write!(f, ", sewn from placement")?,
-            Some(TakenStart { taken: Start::Marks, draped: true }) => {
-                write!(f, ", by suggested marks, draped")?
-            }
-            Some(TakenStart { taken: Start::Marks, draped: false }) => write!(f, ", by suggested marks")?,
-            None => write!(f, ", marks met within {millimetres:.1} mm")?,
-        }
-        write!(f, ", {:.2} s", self.times.seconds)
     }
 }

@@ -123,7 +123,11 @@ impl Faults {
     fn fastening(&mut self, report: &Report) {
         let (apart, gap) = (report.fastenings.apart, report.fastenings.max_gap * 1000.0);
         if apart > 0 {
-            let words = words!("{n} fastened buttons do not close", n = apart).and("; ", widest(gap));
+            let words = match apart {
+                1 => words!("1 fastened button does not close"),
+                n => words!("{n} fastened buttons do not close", n),
+            };
+            let words = words.and("; ", widest(gap));
             self.tell(Spot::Nowhere, words!("fastenings"), words);
         }
     }
@@ -150,13 +154,20 @@ impl Faults {
         }
         let (edges, body_edges) = (report.edges_through_body, report.body_edges_through_garment);
         if edges > 0 || body_edges > 0 {
-            let words = words!("cloth and skin cut through each other in {n} places", n = edges + body_edges);
+            let words = match edges + body_edges {
+                1 => words!("cloth and skin cut through each other in 1 place"),
+                n => words!("cloth and skin cut through each other in {n} places", n),
+            };
             self.tell(Spot::Through, words!("body"), words);
         }
         let lies_so = if draped { report.faces_in_folds + report.faces_between } else { 0 };
         let n = report.flipped_faces - lies_so;
         if n > 0 {
-            self.tell(Spot::WrongSide, words!("garment"), words!("{n} triangles lie wrong side out", n));
+            let words = match n {
+                1 => words!("1 triangle lies wrong side out"),
+                n => words!("{n} triangles lie wrong side out", n),
+            };
+            self.tell(Spot::WrongSide, words!("garment"), words);
         }
     }
 
@@ -179,15 +190,19 @@ impl Faults {
     fn cloth(&mut self, report: &Report) {
         if report.self_crossings > 0 {
             let n = report.self_crossings;
-            self.tell(
-                Spot::Crossing,
-                words!("garment"),
-                words!("the cloth passes through itself in {n} places", n),
-            );
+            let words = match n {
+                1 => words!("the cloth passes through itself in 1 place"),
+                n => words!("the cloth passes through itself in {n} places", n),
+            };
+            self.tell(Spot::Crossing, words!("garment"), words);
         }
         if report.degenerate_faces > 0 {
             let n = report.degenerate_faces;
-            self.tell(Spot::Strained, words!("garment"), words!("{n} triangles have shrunk to nothing", n));
+            let words = match n {
+                1 => words!("1 triangle has shrunk to nothing"),
+                n => words!("{n} triangles have shrunk to nothing", n),
+            };
+            self.tell(Spot::Strained, words!("garment"), words);
         }
         let strain = report.strain;
         if strain.doubled * EDGES_PER_TEAR > strain.edges {

@@ -1,6 +1,6 @@
 //! Geometry that knows nothing of cloth: meshes, adjacency, spatial trees, sparse factors, walks, winding numbers; seeded random
-//! numbers; how parallel work is shared out; small solids that are only looked at; and words for a person that can be said in any
-//! language.
+//! numbers; how parallel work is shared out; small solids that are only looked at; names as a person types them; and words for a
+//! person that can be said in any language.
 
 pub mod adjacency;
 pub mod barycentric;
@@ -11,6 +11,7 @@ pub mod crossings;
 pub mod factor;
 pub mod ids;
 pub mod mesh;
+pub mod names;
 pub mod orient;
 pub mod parallel;
 pub mod polygon;

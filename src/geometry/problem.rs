@@ -20,6 +20,8 @@ pub enum ProblemKind {
     ZeroLength,
     /// The two sides of a seam differ in length.
     UnequalSeam,
+    /// The two sides of a seam differ in length, in the ratio that the seam keeps.
+    Gather,
     /// A seam joins a front to a back.
     TwistedSeam,
     /// A piece could not be triangulated.
@@ -37,7 +39,7 @@ pub enum ProblemKind {
 impl ProblemKind {
     /// Whether this kind is only a note, which does not make `check` fail.
     pub fn is_note(self) -> bool {
-        matches!(self, Self::UnequalSeam | Self::PieceUnsewn)
+        matches!(self, Self::UnequalSeam | Self::Gather | Self::PieceUnsewn)
     }
 }
 

@@ -114,6 +114,12 @@ pub fn read_with_rules(
             let words = words!("a PDF is for printing and is not read: {endings} are", endings);
             return Err(PatternFileError::Whole(words));
         }
+        None if bytes.contains(&0) => {
+            let formats = PatternFormat::ALL.into_iter().filter(|format| format.is_read());
+            let endings = endings(formats);
+            let words = words!("this is a binary file, no pattern: {endings} are text", endings);
+            return Err(PatternFileError::Whole(words));
+        }
         Some(PatternFormat::GarmentCode) | None => {
             ReadPattern { pattern: garmentcode::read(bytes)?, notes: Vec::new() }
         }

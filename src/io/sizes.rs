@@ -2,6 +2,7 @@
 
 use crate::body::Unit;
 use crate::body::mannequin::Measurements;
+use crate::geometry::names;
 use crate::geometry::words::{Value, Words, within_quotes, words};
 use crate::io::words::readable_words;
 
@@ -87,15 +88,11 @@ impl Size {
 
 /// The size called `name` in a table; the error lists the names that there are.
 pub fn chosen<'a>(sizes: &'a [Size], name: &str) -> Result<&'a Size, SizesError> {
-    let found = sizes.iter().find(|size| size.name == name.trim());
-    let names = || sizes.iter().map(|size| size.name.as_str()).collect::<Vec<_>>().join(", ");
+    let found = names::found(sizes.iter().map(|size| size.name.as_str()), name).map(|i| &sizes[i]);
+    let all = || sizes.iter().map(|size| size.name.as_str()).collect::<Vec<_>>().join(", ");
     found.ok_or_else(|| {
         let name = within_quotes(name);
-        SizesError::File(words!(
-            "there is no size \"{name}\" in it; there are {names}",
-            name,
-            names = names()
-        ))
+        SizesError::File(words!("there is no size \"{name}\" in it; there are {names}", name, names = all()))
     })
 }
 

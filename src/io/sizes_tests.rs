@@ -23,6 +23,7 @@ fn sizes_are_read_in_their_units_and_the_rest_follows() {
         let upper_arm = Measurements::completed(|name| (name == "bust").then_some(0.88)).upper_arm;
         assert!((m.waist - 0.7).abs() < 1e-12 && m.upper_arm == upper_arm, "an empty cell is left out");
         assert!(chosen(&sizes, "38, long").is_ok_and(|size| size.checked().is_ok()));
+        assert!(chosen(&sizes, "38, LONG").is_ok_and(|size| size.name == "38, long"), "whatever its case");
         let why = chosen(&sizes, "40").expect_err("no such size").to_string();
         assert_eq!(why, "there is no size \"40\" in it; there are 36, 38, long");
     }

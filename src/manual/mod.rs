@@ -50,9 +50,9 @@ pub enum Block {
 }
 
 impl Topic {
-    /// The topic called `name`.
+    /// The topic called `name`, in small or capital letters.
     pub fn named(name: &str) -> Option<&'static Self> {
-        TOPICS.iter().find(|topic| topic.name == name)
+        TOPICS.iter().find(|topic| topic.name.eq_ignore_ascii_case(name))
     }
 
     /// The title: the text of the first heading.

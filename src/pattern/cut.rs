@@ -25,6 +25,8 @@ pub struct CutPattern {
     /// The seams between whole edges, in the order of their ids and then along the first side. A seam of the pattern
     /// that was split gives several with its id.
     pub seams: Vec<(SeamId, EdgeSeam)>,
+    /// The length ratio of each seam that keeps one, as in [`Seam::ratio`].
+    pub ratios: BTreeMap<SeamId, f64>,
     /// For each piece with split edges: for each of its edges the edge of the pattern that it is a part of.
     origins: BTreeMap<PieceId, Vec<usize>>,
 }
@@ -49,7 +51,9 @@ impl CutPattern {
     /// Splits the edges of `pattern`. A seam on a stretch that does not exist is reported as a problem and left out.
     pub fn new(pattern: &Pattern) -> (Self, Vec<Problem>) {
         let mut problems = Vec::new();
-        let mut cut = Self { pieces: pattern.pieces.clone(), ..Self::default() };
+        let ratio = |(&id, seam): (&SeamId, &Seam)| Some((id, seam.ratio?));
+        let ratios = pattern.seams.iter().filter_map(ratio).collect();
+        let mut cut = Self { pieces: pattern.pieces.clone(), ratios, ..Self::default() };
         let mut places: BTreeMap<SeamId, [Vec<Place>; 2]> = BTreeMap::new();
         let seams = closed_seams(pattern);
         let ends = line_ends(pattern);

@@ -102,8 +102,12 @@ fn sound_seams(
         let [a, b] = seam.sides.map(|s| lengths[&s.piece][s.edge]);
         let (short, long) = (a.min(b), a.max(b));
         if long > short * (1.0 + UNEQUAL) {
+            let is_kept = |ratio: &f64| (a / b / ratio - 1.0).abs() <= UNEQUAL;
             problems.push(Problem {
-                kind: ProblemKind::UnequalSeam,
+                kind: match pattern.ratios.get(&id).is_some_and(is_kept) {
+                    true => ProblemKind::Gather,
+                    false => ProblemKind::UnequalSeam,
+                },
                 place: words!(
                     "{id}: {a} and {b}",
                     id,

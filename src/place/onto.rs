@@ -35,7 +35,7 @@ const BESIDE: f64 = 0.7;
 pub struct Moved {
     /// Placements of the pieces that move.
     pub placements: Vec<(PieceId, Option<SpacePose>)>,
-    /// Messages such as "raised by 1.10 m" or "left sleeve turned by 47°".
+    /// Messages such as "raised by 1.10 m" or "what is round the left arm turned by 47°".
     pub words: Vec<Words>,
 }
 
@@ -107,8 +107,8 @@ pub fn onto(pattern: &Pattern, surface: &Surface, bones: &[Bone], offset: f64) -
         }
         let n = decimal(angle.to_degrees(), 0);
         words.push(match left {
-            true => words!("left sleeve turned by {n}°", n),
-            false => words!("right sleeve turned by {n}°", n),
+            true => words!("what is round the left arm turned by {n}°", n),
+            false => words!("what is round the right arm turned by {n}°", n),
         });
     }
     let changed = poses.into_iter().filter(|(id, pose)| before.get(id) != Some(pose));

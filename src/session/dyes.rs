@@ -50,7 +50,7 @@ impl std::str::FromStr for Motif {
 
     fn from_str(text: &str) -> Result<Self, String> {
         let names = || Self::ALL.map(Self::name).join(", ");
-        let found = Self::ALL.into_iter().find(|motif| motif.name() == text);
+        let found = Self::ALL.into_iter().find(|motif| motif.name().eq_ignore_ascii_case(text));
         found.ok_or_else(|| format!("there is no print {text:?}; there are {}", names()))
     }
 }

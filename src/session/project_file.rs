@@ -10,6 +10,7 @@ use std::{fmt, fs};
 
 use glam::DVec3;
 use serde::{Deserialize, Serialize};
+use zip::result::ZipError;
 use zip::write::SimpleFileOptions;
 use zip::{CompressionMethod, ZipArchive, ZipWriter};
 
@@ -87,6 +88,16 @@ fn library(error: impl fmt::Display) -> ProjectFileError {
 /// The error for contents that are no project, for the reason `why` of a library.
 fn no_project(why: impl fmt::Display) -> ProjectFileError {
     contents(words!("not a project: {why}", why = why.to_string()))
+}
+
+/// The error for contents that begin like an archive and cannot be opened as one. Its directory is at the end.
+fn no_archive(why: ZipError) -> ProjectFileError {
+    match why {
+        ZipError::InvalidArchive(_) => {
+            contents(words!("not a project, or one that is cut off: the end of the file is missing"))
+        }
+        why => no_project(why),
+    }
 }
 
 #[derive(Serialize, Deserialize)]
@@ -228,7 +239,7 @@ fn to_zip(project: &Project) -> Result<Vec<u8>, ProjectFileError> {
 }
 
 fn from_zip(bytes: &[u8]) -> Result<Project, ProjectFileError> {
-    let mut zip = ZipArchive::new(Cursor::new(bytes)).map_err(no_project)?;
+    let mut zip = ZipArchive::new(Cursor::new(bytes)).map_err(no_archive)?;
     if zip.len() > MOST_ENTRIES {
         return Err(ProjectFileError::TooLarge(words!("the file has {n} entries", n = zip.len())));
     }

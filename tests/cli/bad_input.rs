@@ -23,7 +23,10 @@ fn empty_and_foreign_files_are_refused() {
     refused("list.json", b"[1, 2, 3]", "list.json");
     refused("recording.toile", br#"{"format": "toile-recording", "version": 1}"#, "toile-recording");
     refused("future.toile", br#"{"format": "toile-project", "version": 7, "project": 0}"#, "newer program");
-    refused("zip.toile", b"PK\x03\x04 and then nothing", "not a project");
+    refused("zip.toile", b"PK\x03\x04 and then nothing", "the end of the file is missing");
+    refused("picture.json", b"\x89PNG\r\n\x1a\n\0\0\0\rIHDR", "this is a binary file, no pattern");
+    refused("nothing.json", b"{}", "no GarmentCode pattern");
+    refused("shirt.val", b"<?xml version=\"1.0\"?><pattern><version>0.8</version></pattern>", "DXF or SVG");
 }
 
 #[test]

@@ -43,6 +43,16 @@ fn where_no_start_is_clean_the_exit_code_and_the_report_say_so() {
     let tried = report["start"]["tried"].as_array().expect("tried");
     let all: Vec<Vec<String>> = tried.iter().map(|tried| texts(&tried["faults"])).collect();
     assert!(all.iter().all(|faults| !faults.is_empty()) && all.contains(&faults(&report)), "{all:#?}");
+    let told: Vec<&str> = done.err.lines().filter_map(|line| line.strip_prefix("toile: ")).collect();
+    assert_eq!(told, faults(&report), "a line for each fault, once");
+    let plain = place.ends(1, "dress narrow.toile --out out");
+    assert!(plain.out.starts_with("narrow: not dressed, ") && plain.out.lines().count() == 1, "{plain:#?}");
+    assert!(faults(&report).iter().all(|words| !plain.out.contains(words)), "told once: {plain:#?}");
+    std::fs::copy(place.path("narrow.toile"), place.path("again.toile")).expect("copied");
+    let both = place.ends(1, "dress narrow.toile again.toile --out both");
+    assert_eq!(both.err.lines().filter(|line| line.starts_with("toile: ")).count(), 1, "{both:#?}");
+    assert!(both.err.ends_with("toile: 2 of 2 are not dressed\n"), "{both:#?}");
+    assert!(both.out.lines().all(|line| line.contains(": not dressed: ")), "{both:#?}");
 }
 
 #[test]

@@ -166,7 +166,7 @@ fn an_obj_has_its_materials_and_their_images_beside_it() {
     let in_metres_text = place.read("cloth.obj");
     let in_metres = cloth_obj::read(in_metres_text.as_bytes()).expect("cloth");
     assert!(in_metres_text.contains("mtllib cloth.mtl\n"));
-    place.ends(0, "export dressed.toile -o cloth.obj --fabric denim-11oz --textures 128");
+    place.ends(0, "export dressed.toile -o cloth.obj --fabric Denim-11oz --textures 128");
     let text = place.read("cloth.mtl");
     for line in
         ["map_Kd cloth-colour.png\n", "norm cloth-normal.png\n", "map_Bump -bm 1.0 cloth-normal.png\n"]
@@ -183,6 +183,22 @@ fn an_obj_has_its_materials_and_their_images_beside_it() {
     let rest = in_texture.rest.expect("texture coordinates");
     assert!(rest.iter().flatten().all(|p| p.min_element() >= 0.0 && p.max_element() <= 1.0));
     assert!(rest.iter().flatten().map(|p| p.x).fold(0.0, f64::max) > 0.9, "the atlas is filled");
+}
+
+#[test]
+fn an_obj_without_textures_tells_that_prints_are_not_in_it() {
+    let place = dressed();
+    let told = |options: &str| {
+        let done = place.ends(0, &format!("export dressed.toile -o cloth.obj {options}"));
+        done.err.lines().filter(|line| line.contains("prints, images and graphics are not in it")).count()
+    };
+    let printed = "--print stripes:20:a82a30";
+    assert_eq!(told(printed), 1);
+    for options in
+        ["--colour a82a30".to_owned(), format!("{printed} --textures 64"), format!("{printed} --textures 0")]
+    {
+        assert_eq!(told(&options), 0, "{options}");
+    }
 }
 
 #[test]

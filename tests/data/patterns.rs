@@ -132,7 +132,7 @@ fn garmentcode_goes_out_and_in_again_unchanged() {
 fn a_design_file_is_no_pattern() {
     let Some(bytes) = crate::bytes("patterns/garmentcode/tee_mean_all_design.json") else { return };
     let error = garmentcode::read(&bytes).expect_err("no pattern").to_string();
-    assert!(error.contains("is missing"), "{error}");
+    assert!(error.contains("no GarmentCode pattern"), "{error}");
 }
 
 /// Panels stand off the body with their fronts outward; the loops' directions and the rotations must agree on that.

@@ -190,6 +190,8 @@ fn a_gather_pairs_points_by_fraction_of_length() {
     sew(&mut pattern, (a, 1), (b, 3));
     let (garment, problems) = build(&pattern, 0.02);
     assert_eq!(problems.iter().map(|p| p.kind).collect::<Vec<_>>(), [ProblemKind::UnequalSeam]);
+    pattern.keep_ratios();
+    assert_eq!(kinds(&pattern), [ProblemKind::Gather], "a kept ratio is meant");
     let (_, pairs) = &garment.seam_pairs[0];
     let longer = pattern.pieces[&b].edge_length(3);
     assert_eq!(pairs.len(), (longer / 0.02).round() as usize + 1);

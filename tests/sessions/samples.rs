@@ -456,8 +456,8 @@ fn samples_can_be_drafted_for_another_body() {
         let project = sample.project(&body);
         assert_eq!(project.problem(), None, "{}", sample.name());
         let (_, mut problems) = build(&project.document.pattern, project.document.settings.edge_length);
-        // What is gathered is told.
-        problems.retain(|problem| problem.kind != ProblemKind::UnequalSeam);
+        // What is gathered is told, and that it is meant.
+        problems.retain(|problem| problem.kind != ProblemKind::Gather);
         assert_eq!(problems, [], "{}", sample.name());
     }
 }

@@ -95,12 +95,12 @@ fn colours_prints_and_colourways_are_chosen_in_the_side_panel() {
     window.run_steps(3);
     window.get_by_label("Keep colourway…").click();
     window.run_steps(3);
-    window.get_by_role(egui::accesskit::Role::TextInput).focus();
-    window.run_steps(2);
-    window.get_by_role(egui::accesskit::Role::TextInput).type_text("picnic");
+    let field = window.get_by_role(egui::accesskit::Role::TextInput);
+    assert!(field.accesskit_node().is_focused(), "it is typed into at once");
+    field.type_text("picnic");
     window.run_steps(3);
-    window.get_by_label("Keep").click();
-    window.run_steps(3);
+    key(&mut window, Modifiers::NONE, Key::Enter);
+    assert!(window.query_by_label("Keep").is_none(), "Enter keeps it and closes");
     let document = app(&window).session().document();
     assert_eq!(document.colourways.iter().map(|c| c.name.as_str()).collect::<Vec<_>>(), ["picnic"]);
     assert_eq!(document.colourways[0].dyes, document.dyes);

@@ -60,3 +60,17 @@ fn esc_cancels_the_whole_run() {
     });
     assert_eq!(app(&window).session().undo_label(), None);
 }
+
+#[test]
+fn the_key_of_dress_says_what_is_missing() {
+    let mut window = window();
+    key(&mut window, Modifiers::COMMAND, Key::Enter);
+    assert!(
+        window.query_by_label_contains("Dress: There are neither seams nor marks").is_some(),
+        "it is told"
+    );
+    assert_eq!(app(&window).session().undo_label(), None, "nothing is done");
+    assert!(!app(&window).session().snapshot().working);
+    key(&mut window, Modifiers::NONE, Key::D);
+    assert!(window.query_by_label_contains("There is no cloth on the body.").is_some(), "so do letters");
+}

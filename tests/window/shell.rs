@@ -30,6 +30,22 @@ fn a_command_is_found_by_a_few_letters_and_carried_out() {
 }
 
 #[test]
+fn poses_and_fabrics_are_found_like_commands() {
+    let mut window = window_on(Project::default(), None);
+    let choose = |window: &mut Window, text: &str| {
+        key(window, Modifiers::COMMAND, Key::P);
+        type_into(window, text);
+        key(window, Modifiers::NONE, Key::Enter);
+    };
+    choose(&mut window, "sitting");
+    let sitting = BodyChoice::default().in_named_pose(toile::body::NamedPose::Sitting);
+    assert_eq!(Some(app(&window).session().document().body.clone()), sitting);
+    choose(&mut window, "fabric silk");
+    let fabrics = app(&window).session().document().fabrics.clone();
+    assert!(fabrics.name(None).contains("silk"), "{fabrics:?}");
+}
+
+#[test]
 fn a_command_that_cannot_be_chosen_says_why_in_the_palette() {
     let mut window = window();
     key(&mut window, Modifiers::NONE, Key::F3);

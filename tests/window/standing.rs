@@ -66,6 +66,29 @@ fn a_piece_is_stood_at_a_dot_rolled_and_taken_away() {
 }
 
 #[test]
+fn a_click_on_the_body_beside_a_dot_means_it() {
+    let mut window = with_mannequin();
+    key(&mut window, Modifiers::SHIFT, Key::B);
+    let at = window.get_by_label("Arrangement point: waist, front").rect().center() + Vec2::new(12.0, 0.0);
+    let click = |window: &mut Window, at: Pos2| {
+        move_to(window, at);
+        button(window, at, PointerButton::Primary, true, Modifiers::NONE);
+        button(window, at, PointerButton::Primary, false, Modifiers::NONE);
+        window.run_steps(3);
+    };
+    click(&mut window, at);
+    assert_eq!(placement(&window, 1), None, "nothing is selected");
+    select(&mut window);
+    stand(&mut window, "waist, front");
+    let stood = placement(&window, 1);
+    key(&mut window, Modifiers::COMMAND, Key::Z);
+    assert_eq!(placement(&window, 1), None);
+    click(&mut window, at);
+    assert_eq!((placement(&window, 1), stood.is_some()), (stood, true));
+    assert_eq!(app(&window).session().undo_label(), Some("place Panel"));
+}
+
+#[test]
 fn a_standing_piece_is_dragged_and_esc_puts_it_back() {
     let mut window = with_mannequin();
     key(&mut window, Modifiers::SHIFT, Key::B);

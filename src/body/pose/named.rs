@@ -98,7 +98,7 @@ impl std::str::FromStr for NamedPose {
     type Err = String;
 
     fn from_str(text: &str) -> Result<Self, String> {
-        Self::ALL.into_iter().find(|pose| pose.name() == text).ok_or_else(|| {
+        Self::ALL.into_iter().find(|pose| pose.name().eq_ignore_ascii_case(text)).ok_or_else(|| {
             format!("there is no pose {text:?}; there are {}", Self::ALL.map(Self::name).join(", "))
         })
     }

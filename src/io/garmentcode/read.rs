@@ -63,6 +63,11 @@ pub fn read(bytes: &[u8]) -> Result<Pattern, GarmentCodeError> {
     }
     let root = json::parse(bytes)?;
     let root = At::root(&root);
+    if root.optional("properties")?.is_none() && root.optional("pattern")?.is_none() {
+        let words =
+            words!("this is JSON, but no GarmentCode pattern: it has neither \"pattern\" nor \"properties\"");
+        return Err(root.error(words).into());
+    }
     let convention = Convention::read(&root, &limits)?;
     let body = root.field("pattern")?;
     let mut pattern = Pattern::default();

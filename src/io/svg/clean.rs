@@ -101,16 +101,24 @@ pub fn clean(bytes: &[u8]) -> Result<Clean, PatternFileError> {
         PatternFileError::Whole(readable_words(words!("no sound XML: {why}", why = e.to_string())))
     })?;
     let root = document.root_element();
-    if root.tag_name().name() != "svg" {
-        let words = words!("its root is <{name}>, not <svg>", name = root.tag_name().name());
-        return Err(PatternFileError::bad(line(1), words));
-    }
+    is_svg(root)?;
     check_paths(root)?;
     let names = numbers(root);
     check_uses(root, &names, &limits)?;
     let mut clean = Clean { root: root_of(root, text)?, ..Clean::default() };
     clean.write(root, &names);
     Ok(clean)
+}
+
+/// Refuses a root that is no SVG. Patterns and measurements of Valentina and of Seamly2D, which came of it, are told by theirs.
+fn is_svg(root: Node<'_, '_>) -> Result<(), PatternFileError> {
+    match root.tag_name().name() {
+        "svg" => Ok(()),
+        "pattern" | "vit" | "vst" | "smis" | "smms" => Err(PatternFileError::Whole(words!(
+            "this is a file of Valentina or Seamly2D, which is not read: export the pattern there as DXF or SVG"
+        ))),
+        name => Err(PatternFileError::bad(line(1), words!("its root is <{name}>, not <svg>", name))),
+    }
 }
 
 /// Refuses too many elements and too deep nesting, without recursion.

@@ -2,6 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
+use crate::geometry::names;
 use crate::geometry::words::{Words, within_quotes, words};
 
 /// Most sizes of a run.
@@ -42,12 +43,12 @@ impl SizeRun {
         self.names.get(self.base).map_or("", String::as_str)
     }
 
-    /// The number of the size called `name`, from 0.
+    /// The number of the size called `name`, from 0; case counts only between names that differ by it alone.
     ///
     /// # Errors
     /// There is no such size, in words that list those there are.
     pub fn number(&self, name: &str) -> Result<usize, Words> {
-        let found = self.names.iter().position(|own| own == name.trim());
+        let found = names::found(self.names.iter().map(String::as_str), name);
         found.ok_or_else(|| match self.is_empty() {
             true => words!("the pattern has no sizes: choose a size run first"),
             false => {
@@ -157,7 +158,7 @@ mod tests {
     #[test]
     fn sizes_are_found_by_name() {
         let run = READY_SIZES[0].run();
-        assert_eq!(run.number(" L"), Ok(3));
+        assert_eq!((run.number(" L"), run.number("xxl")), (Ok(3), Ok(5)));
         let why = run.number("38").expect_err("not there");
         assert_eq!(why, "the pattern has no size \"38\": it has XS, S, M, L, XL, XXL");
         assert!(SizeRun::default().number("M").expect_err("none").contains("no sizes"));

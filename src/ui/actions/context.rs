@@ -43,6 +43,8 @@ pub struct FrameContext {
     pub sizes: bool,
     /// Number of pieces in the pattern.
     pub pieces: usize,
+    /// Whether the pattern has seams.
+    pub sewn: bool,
     /// Number of marks on the cloth and on the body.
     pub marks: [usize; 2],
     /// Number of pins in the cloth.
@@ -67,6 +69,8 @@ pub struct FrameContext {
     pub proposed: usize,
     /// Whether there is a body that cloth can be put on.
     pub has_body: bool,
+    /// Whether the body has joints that take poses by name.
+    pub has_joints: bool,
     /// Whether there is cloth on the body.
     pub dressed: bool,
     /// Whether the cloth is the result of a wrap, which can be removed again.
@@ -145,6 +149,11 @@ impl FrameContext {
         row.needs.iter().find_map(|&need| self.lacks(need, action))
     }
 
+    /// The message that `action` is disabled, and why; None when it is enabled.
+    pub fn refusal(&self, action: Action) -> Option<String> {
+        self.why_not(action).map(|why| format!("{}: {why}.", action.row().label()))
+    }
+
     /// The reason to show if `need` of `action` is not met; None when it is met.
     fn lacks(&self, need: Need, action: Action) -> Option<&'static str> {
         let picked = &self.picked;
@@ -162,6 +171,9 @@ impl FrameContext {
                 (self.sizes, "The pattern has no sizes: give it some first (Sizes of the pattern)")
             }
             Need::Body => (self.has_body, "There is no body"),
+            Need::Joints => {
+                (self.has_joints, "The body is from a file: only the mannequin takes poses by name")
+            }
             Need::Dressed => (self.dressed, "There is no cloth on the body"),
             Need::Growing => (self.wrapping, "Nothing is growing"),
             Need::NotGrowing => (!self.wrapping, "The cloth is growing"),
@@ -171,9 +183,14 @@ impl FrameContext {
             Need::PlacedFirst => {
                 (self.placed, "No piece stands round the body: place some first (Garment › Place pieces)")
             }
-            Need::PlacedOrPairs => {
-                (self.placed || self.has_pairs(), "No piece stands round the body, and there are no marks")
-            }
+            Need::PlacedOrPairs if self.sewn => (
+                self.placed || self.has_pairs(),
+                "No piece stands round the body, and there are no marks: place the pieces (Garment › Place pieces) or paint marks, then dress",
+            ),
+            Need::PlacedOrPairs => (
+                self.placed || self.has_pairs(),
+                "There are neither seams nor marks, and no piece stands round the body: sew the edges (Pattern › Tools › Sew), place the pieces (Garment › Place pieces), then dress",
+            ),
             Need::Pairs => (self.has_pairs(), "Paint at least one mark on a piece and one on the body first"),
             Need::NewPairs => (
                 self.has_pairs(),

@@ -10,6 +10,7 @@ pub(in crate::ui) mod row;
 pub mod rows;
 pub(in crate::ui) mod sight;
 
+use crate::body::NamedPose;
 use crate::drag::DragMode;
 use crate::fit::MapKind;
 use crate::io::pdf::Paper;
@@ -93,6 +94,10 @@ pub enum Action {
     Sequence,
     Sizes,
     UseMannequin,
+    /// Put the mannequin in this pose.
+    Pose(NamedPose),
+    /// Cut all pieces from the fabric with this number (from 0) among the presets.
+    Fabric(u8),
     Export,
     FitPage,
     TechPack,

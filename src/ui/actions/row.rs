@@ -54,6 +54,8 @@ pub enum Need {
     Sizes,
     /// There is a body that cloth can be put on.
     Body,
+    /// The body has joints that take poses by name.
+    Joints,
     /// There is cloth on the body.
     Dressed,
     /// A wrap is in progress.

@@ -5,6 +5,7 @@ use std::sync::Arc;
 use egui::ViewportCommand;
 use glam::DVec3;
 
+use crate::cloth::Fabric;
 use crate::render::Projection;
 use crate::session::{Command, Project};
 use crate::ui::actions::layout::Panes;
@@ -55,6 +56,7 @@ impl App {
             "Edit" => self.act_on_edit(ctx, action),
             "Pattern" => self.change_pattern(action),
             "Garment" => self.act_on_garment(action),
+            "Pose" | "Fabric" => self.act_on_panel(action),
             _ => self.act_on_view(ctx, action),
         }
     }
@@ -147,6 +149,21 @@ impl App {
             Action::OwnBones => self.apply(Command::SetBones { bones: None }),
             Action::NoBones => self.apply(Command::SetBones { bones: Some(Vec::new()) }),
             _ => self.change_pattern(action),
+        }
+    }
+
+    /// Carries out an action of the side panel.
+    fn act_on_panel(&mut self, action: Action) {
+        let command = match action {
+            Action::Pose(pose) => self.shell.pose.take(pose, &self.session.document().body),
+            Action::Fabric(number) => {
+                let fabric = Fabric::presets().get(usize::from(number));
+                fabric.map(|fabric| Command::SetFabric { piece: None, fabric: Some(fabric.name.to_string()) })
+            }
+            _ => None,
+        };
+        if let Some(command) = command {
+            self.apply(command);
         }
     }
 

@@ -148,6 +148,14 @@ impl App {
         }
     }
 
+    /// Which panes are shown, and where. Demos and the tour refer to both.
+    fn layout(&self) -> Layout {
+        match self.demo.is_some() || self.shell.tour.is_some() {
+            true => Layout { panes: Panes::Both, ..self.preferences.layout },
+            false => self.preferences.layout,
+        }
+    }
+
     pub(in crate::ui) fn situation(
         &mut self,
         ctx: &egui::Context,
@@ -175,6 +183,7 @@ impl App {
             paper: self.preferences.paper,
             laser: self.laser,
             picked: Picked::new(&document.pattern, &self.picks.selection),
+            sewn: !document.pattern.seams.is_empty(),
             twisted: self.pattern_pane.has_twisted(),
             snapping: self.snapping,
             highlight: self.highlight(),
@@ -187,6 +196,7 @@ impl App {
             pins: document.pins.len(),
             proposed: self.ghosts.as_ref().map_or(0, |g| g.marks.pairs().count()),
             has_body: self.shown().surface().is_some(),
+            has_joints: document.body.measurements().is_some(),
             demo: self.demo.is_some(),
             dressed: snapshot.is_dressed(),
             wrapped: self.shown().can_cancel_wrap(),
@@ -202,12 +212,7 @@ impl App {
             progress: snapshot.progress,
             tick: snapshot.tick,
             triangles: snapshot.garment.as_ref().map_or(0, |g| g.triangles.len()),
-            // Demos and the tour refer to both panes.
-            layout: if self.demo.is_some() || self.shell.tour.is_some() {
-                Layout { panes: Panes::Both, ..self.preferences.layout }
-            } else {
-                self.preferences.layout
-            },
+            layout: self.layout(),
             has_file: self.path.is_some(),
             show_cloth: self.show_cloth,
             show_panel: self.show_panel,

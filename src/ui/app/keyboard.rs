@@ -50,10 +50,19 @@ impl App {
                     || (table.takes_numbers() && at_table && is_figure)
                     || (keys.logical_key == Key::Space && at_table)
                     || (action == Action::CancelWrap && (drawing || self.drag.is_some())));
-            // The keys of a disabled action are left to the panes.
-            if !taken && now.why_not(action).is_none() && ctx.input_mut(|i| i.consume_shortcut(&keys)) {
-                asks.push(Ask::Act(action));
+            let refusal = now.refusal(action);
+            // Keys that panes use too are left to them while the action is disabled.
+            let is_left = refusal.is_some() && !is_of_actions_only(keys);
+            if !taken && !is_left && ctx.input_mut(|i| i.consume_shortcut(&keys)) {
+                asks.push(refusal.map_or(Ask::Act(action), Ask::Say));
             }
         }
     }
+}
+
+/// Whether no pane uses `keys`: letters, with or without modifiers, and Ctrl+Enter.
+fn is_of_actions_only(keys: KeyboardShortcut) -> bool {
+    let name = keys.logical_key.name().as_bytes();
+    let is_letter = name.len() == 1 && name[0].is_ascii_alphabetic();
+    is_letter || (keys.logical_key == Key::Enter && keys.modifiers.command)
 }

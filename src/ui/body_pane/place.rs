@@ -22,6 +22,8 @@ use crate::ui::selection::{Item, Selection};
 
 /// Radius of a dot, points.
 const DOT: f32 = 4.5;
+/// Distance from a dot within which a click on the body means it, points.
+const REACH: f32 = 48.0;
 /// Smallest cosine between the skin's normal and the view direction at which a dot is shown; it includes dots on the outline of a
 /// limb.
 const FACES: f64 = -0.1;
@@ -50,7 +52,7 @@ pub(super) struct Stood {
 impl ScenePane {
     /// Draws dots, handles and outlines over the picture; a click on a dot places the selected pieces there.
     pub(super) fn places_ui(&mut self, ui: &mut egui::Ui, seen: &Seen<'_>, pane: Rect, asks: &mut Asks) {
-        let (Some(places), Some(body)) = (seen.places, seen.body) else { return };
+        let Some(places) = seen.places else { return };
         let painter = ui.painter_at(pane);
         let pattern = &seen.document.pattern;
         for id in places.selected {
@@ -73,15 +75,8 @@ impl ScenePane {
         if matches!(self.drag, Some(Drag::Stand(_) | Drag::View(..))) {
             return;
         }
-        let eye = self.camera.eye().as_dvec3();
         for (k, point) in places.points.iter().enumerate() {
-            let faces = (eye - point.at).normalize_or_zero().dot(point.out) > FACES;
-            let Some(at) = self.place_of(point.at, pane).filter(|at| faces && pane.contains(*at)) else {
-                continue;
-            };
-            if !self.is_in_sight(seen, point.at + point.out * (0.02 * body.scale())) {
-                continue;
-            }
+            let Some(at) = self.dot(seen, pane, point) else { continue };
             let rect = Rect::from_center_size(at, egui::Vec2::splat(DOT * 3.0));
             let dot = ui.interact(rect, ui.scope_id().with(("arrangement point", k)), Sense::click());
             let name = shown_name(point);
@@ -97,6 +92,25 @@ impl ScenePane {
         }
     }
 
+    /// Where the dot of `point` is shown; None where it is out of sight.
+    fn dot(&self, seen: &Seen<'_>, pane: Rect, point: &Point) -> Option<Pos2> {
+        let eye = self.camera.eye().as_dvec3();
+        let faces = (eye - point.at).normalize_or_zero().dot(point.out) > FACES;
+        let at = self.place_of(point.at, pane).filter(|at| faces && pane.contains(*at))?;
+        self.is_in_sight(seen, point.at + point.out * (0.02 * seen.body?.scale())).then_some(at)
+    }
+
+    /// What a click on the body beside all dots asks for while pieces are selected: the nearest dot within reach, or words.
+    fn click_beside(&self, seen: &Seen<'_>, places: &Places<'_>, pane: Rect, click: Pos2) -> Ask {
+        let all = places.points.iter();
+        let dots = all.filter_map(|point| Some((self.dot(seen, pane, point)?.distance(click), point)));
+        let nearest = dots.filter(|dot| dot.0 <= REACH).min_by(|a, b| a.0.total_cmp(&b.0));
+        match nearest {
+            Some((_, point)) => stand_at(seen, places, point),
+            None => Ask::Say(tr("Click a dot on the body to place what is selected there").to_owned()),
+        }
+    }
+
     /// The handles around the selected pieces that are placed.
     fn handles(&self, seen: &Seen<'_>, pane: Rect) -> Option<Handles> {
         let centre = centre(&seen.document.pattern, seen.places?.selected)?;
@@ -104,13 +118,19 @@ impl ScenePane {
         Some(Handles::new(centre, metres, |p| self.place_of(p, pane)))
     }
 
-    /// A click that hit no dot: selects the piece there, with `add` in addition to the selection.
+    /// A click that hit no dot: selects the piece there, with `add` in addition to the selection. On the body it means the nearest
+    /// dot while pieces are selected.
     pub(super) fn click_standing(&self, seen: &Seen<'_>, pane: Rect, at: Pos2, add: bool, asks: &mut Asks) {
         let Some(places) = seen.places else { return };
         if self.handles(seen, pane).is_some_and(|handles| handles.under(at).is_some()) {
             return;
         }
-        let under = standing_under(seen, &places, self.ray(pane, at)).map(|hit| hit.0);
+        let ray = self.ray(pane, at);
+        let under = standing_under(seen, &places, ray).map(|hit| hit.0);
+        let is_on_body = || seen.body.and_then(|body| body.ray(ray.origin, ray.direction)).is_some();
+        if under.is_none() && !add && !places.selected.is_empty() && is_on_body() {
+            return asks.push(self.click_beside(seen, &places, pane, at));
+        }
         asks.push(Ask::Pick(match under {
             Some(piece) if add => {
                 let mut chosen = Selection::of_pieces(places.selected.iter().copied());

@@ -10,7 +10,7 @@ use crate::session::{Artwork, Command, Dye, Motif, Print};
 use crate::ui::actions::Action;
 use crate::ui::actions::asks::{Ask, Asks};
 use crate::ui::language::fields::drag_value;
-use crate::ui::language::{say, tr};
+use crate::ui::language::{counted, say, tr};
 use crate::ui::panels::artwork::surface_ui;
 use crate::ui::panels::colours::{SWATCH, colour_ui, open_menu};
 use crate::ui::panels::context::PanelContext;
@@ -131,9 +131,10 @@ fn dye_ui(ui: &mut Ui, artwork: &Artwork, own: Dye, seen: Option<[u8; 3]>, is_fo
             }
         });
         ui.horizontal(|ui| {
+            let label = ui.label(tr("Repeat"));
             let mut millimetres = print.repeat_m * 1e3;
             let value = drag_value(&mut millimetres).range(1.0..=2000.0).suffix(" mm").max_decimals(1);
-            if ui.add(value).on_hover_text(tr("Length of a repeat")).changed() {
+            if ui.add(value).labelled_by(label.id).on_hover_text(tr("Length of a repeat")).changed() {
                 print.repeat_m = millimetres / 1e3;
             }
         });
@@ -172,6 +173,9 @@ fn colourways_ui(ui: &mut Ui, told: &PanelContext<'_>, asks: &mut Asks) {
         let mut name: String = ui.data(|data| data.get_temp(id)).unwrap_or_default();
         let field = egui::TextEdit::singleline(&mut name).hint_text(tr("Name"));
         let typed = ui.add(field.desired_width(WIDTH));
+        if is_just_opened(ui, id) {
+            typed.request_focus();
+        }
         let is_entered = typed.lost_focus() && ui.input(|input| input.key_pressed(egui::Key::Enter));
         let is_named = !name.trim().is_empty();
         let is_kept = ui.add_enabled(is_named, egui::Button::new(tr("Keep"))).clicked();
@@ -185,25 +189,35 @@ fn colourways_ui(ui: &mut Ui, told: &PanelContext<'_>, asks: &mut Asks) {
     response.on_hover_text(tr("Keep the present fabrics, colours and prints under a name"));
 }
 
-/// How far the prints on both sides of each seam are off each other.
+/// Whether what is drawn in a popup was not drawn until this frame or the last one. The first only measures it, and may lose the
+/// focus again.
+fn is_just_opened(ui: &Ui, id: egui::Id) -> bool {
+    let (frame, id) = (ui.ctx().cumulative_frame_nr(), id.with("opened"));
+    let [opened, last] = ui.data(|data| data.get_temp(id)).unwrap_or([frame; 2]);
+    let opened = if last + 1 < frame { frame } else { opened };
+    ui.data_mut(|data| data.insert_temp(id, [opened, frame]));
+    frame <= opened + 1
+}
+
+/// How far the prints on both sides of a seam are off each other; of the seams where they meet only the number.
 fn matches_ui(ui: &mut Ui, told: &PanelContext<'_>) {
     let Some(garment) = told.snapshot.garment.as_ref().filter(|_| !told.document.dyes.is_plain()) else {
         return;
     };
-    for PrintMatch { seam, motif, offset } in
-        print_matches(garment, &told.document.pattern, &told.document.dyes)
-    {
-        let place = naming::seam_place(&told.document.pattern, seam);
-        let millimetres = offset * 1e3;
-        let words = match millimetres < MATCHES_MM {
-            true => say!("{place}: {print} meet", place, print = tr(motif.name())),
-            false => say!(
-                "{place}: {print} are {mm} mm off",
-                place,
-                print = tr(motif.name()),
-                mm = format!("{millimetres:.0}")
-            ),
-        };
+    let found = print_matches(garment, &told.document.pattern, &told.document.dyes);
+    let (meeting, off): (Vec<PrintMatch>, Vec<PrintMatch>) =
+        found.into_iter().partition(|found| found.offset * 1e3 < MATCHES_MM);
+    for PrintMatch { seam, motif, offset } in off {
+        let words = say!(
+            "{place}: {print} are {mm} mm off",
+            place = naming::seam_place(&told.document.pattern, seam),
+            print = tr(motif.name()),
+            mm = format!("{:.0}", offset * 1e3)
+        );
+        ui.label(RichText::new(words).small());
+    }
+    if !meeting.is_empty() {
+        let words = counted(meeting.len(), "Prints meet at 1 seam", "Prints meet at {n} seams");
         ui.label(RichText::new(words).small().color(told.palette.weak));
     }
 }

@@ -66,6 +66,12 @@ impl PosePanel {
         });
     }
 
+    /// Chooses `pose`: the command that puts `body` in it, unless it is in it already or has no joints.
+    pub fn take(&mut self, pose: NamedPose, body: &BodyChoice) -> Option<Command> {
+        (self.to, self.share) = (pose, 1.0);
+        whole(body, pose).map(|body| posed(body, false))
+    }
+
     fn names_ui(&mut self, ui: &mut egui::Ui, body: &BodyChoice, asks: &mut Asks) {
         egui::Grid::new("poses").num_columns(2).spacing([6.0, 4.0]).show(ui, |ui| {
             for (i, pose) in NamedPose::ALL.into_iter().enumerate() {
@@ -81,8 +87,7 @@ impl PosePanel {
                     egui::WidgetInfo::selected(egui::accesskit::Role::Button, true, is_taken, words.clone())
                 });
                 if button.clicked() {
-                    (self.to, self.share) = (pose, 1.0);
-                    asks.extend(whole(body, pose).map(|body| Ask::Do(posed(body, false))));
+                    asks.extend(self.take(pose, body).map(Ask::Do));
                 }
                 if i % 2 == 1 {
                     ui.end_row();

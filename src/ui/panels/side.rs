@@ -4,6 +4,7 @@ use std::cmp::Ordering;
 
 use egui::{CollapsingHeader, Id, RichText, ScrollArea};
 
+use crate::pattern::{Problem, ProblemKind};
 use crate::session::{Command, Document, Settings};
 use crate::sim::Fault;
 use crate::ui::actions::Tool;
@@ -23,6 +24,9 @@ use crate::ui::panels::sizes::SizesPanel;
 use crate::ui::panels::tape::TapePanel;
 use crate::ui::panels::tight::tight_ui;
 
+/// Width that is left free for the scroll bar, points.
+const BAR: f32 = 8.0;
+
 /// Draws the panel. Returns its first widget, for the keyboard focus.
 pub fn side_panel_ui(
     ui: &mut egui::Ui,
@@ -36,6 +40,8 @@ pub fn side_panel_ui(
     let mut first = None;
     let (pattern, sizes) = pattern;
     ScrollArea::vertical().auto_shrink([false, false]).show(ui, |ui| {
+        // The scroll bar floats over what is at the right edge.
+        ui.set_max_width(ui.available_width() - BAR);
         // The section of the chosen tool comes first.
         let on_pattern =
             !matches!(told.now.tool, Tool::Mark | Tool::Erase | Tool::Drag(_) | Tool::Pin | Tool::Bone);
@@ -204,9 +210,10 @@ fn problems_ui(ui: &mut egui::Ui, told: &PanelContext<'_>, asks: &mut Asks) {
     for words in lonely {
         problem_row(ui, palette.warning, &words, None, asks);
     }
-    for problem in told.lost.iter().chain(told.problems) {
-        let ink = if problem.kind.is_note() { palette.warning } else { palette.error };
-        problem_row(ui, ink, &said(&problem.in_words()), None, asks);
+    let (notes, real): (Vec<&Problem>, Vec<&Problem>) =
+        told.lost.iter().chain(told.problems).partition(|problem| problem.kind.is_note());
+    for problem in real {
+        problem_row(ui, palette.error, &said(&problem.in_words()), None, asks);
     }
     for Fault { problem, marks } in told.verdict {
         let numbers: Vec<usize> = marks.iter().map(|m| m.number).collect();
@@ -216,12 +223,22 @@ fn problems_ui(ui: &mut egui::Ui, told: &PanelContext<'_>, asks: &mut Asks) {
         problem_row(ui, palette.error, &words, shows, asks);
     }
     tight_ui(ui, told, asks);
+    notes_ui(ui, palette, notes, asks);
     if !told.verdict.is_empty() && told.now.wrapped {
         ui.add_space(4.0);
         let tip = tr("What was on the body before this wrap comes back; then paint the marks anew");
         if ui.button(tr("Take this wrap back")).on_hover_text(tip).clicked() {
             asks.push(Ask::Do(Command::CancelWrap));
         }
+    }
+}
+
+/// Draws a row for each of `notes`; those about what is as it is meant come last, and quieter.
+fn notes_ui(ui: &mut egui::Ui, palette: &Palette, mut notes: Vec<&Problem>, asks: &mut Asks) {
+    notes.sort_by_key(|note| note.kind == ProblemKind::Gather);
+    for note in notes {
+        let ink = if note.kind == ProblemKind::Gather { palette.weak } else { palette.warning };
+        problem_row(ui, ink, &said(&note.in_words()), None, asks);
     }
 }
 

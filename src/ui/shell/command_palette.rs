@@ -107,10 +107,7 @@ impl CommandPalette {
 
 /// Carries out an action, or shows why it is disabled.
 fn choose(action: Action, now: &FrameContext, asks: &mut Asks) {
-    asks.push(match now.why_not(action) {
-        None => Ask::Act(action),
-        Some(why) => Ask::Say(format!("{}: {why}.", action.row().label())),
-    });
+    asks.push(now.refusal(action).map_or(Ask::Act(action), Ask::Say));
 }
 
 fn row_ui(

@@ -9,6 +9,8 @@ mod view;
 
 use std::sync::LazyLock;
 
+use crate::body::NamedPose;
+use crate::cloth::Fabric;
 use crate::fit::MapKind;
 use crate::render::{Light, View};
 use crate::session::demos::Demo;
@@ -25,6 +27,13 @@ static ROWS: LazyLock<Vec<Row>> = LazyLock::new(|| {
         Sample::ALL
             .map(|sample| row("File › Samples", Action::Sample(sample), sample.name(), "Open this sample")),
     );
+    rows.extend(NamedPose::ALL.map(|pose| {
+        let tip = "Put the body in this pose; the cloth on it follows";
+        row("Pose", Action::Pose(pose), pose.title(), tip).needs(&[Need::NotGrowing, Need::Joints])
+    }));
+    rows.extend((0_u8..).zip(Fabric::presets()).map(|(number, fabric)| {
+        row("Fabric", Action::Fabric(number), &fabric.name, "Cut all pieces from this fabric")
+    }));
     rows.extend(MapKind::ALL.map(|kind| {
         let map = row("View › Map", Action::Map(Some(kind)), kind.title(), kind.tip());
         map.needs(&[Need::Dressed]).in_demos()
@@ -102,6 +111,8 @@ mod tests {
         assert_eq!(count(|action| matches!(action, Action::Sample(_))), Sample::ALL.len());
         assert_eq!(count(|action| matches!(action, Action::Map(Some(_)))), MapKind::ALL.len());
         assert_eq!(count(|action| matches!(action, Action::Demo(_))), Demo::ALL.len());
+        assert_eq!(count(|action| matches!(action, Action::Pose(_))), NamedPose::ALL.len());
+        assert_eq!(count(|action| matches!(action, Action::Fabric(_))), Fabric::presets().len());
     }
 
     #[test]
