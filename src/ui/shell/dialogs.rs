@@ -377,24 +377,20 @@ fn bow_ui(ctx: &egui::Context, at: PiecePoint, bow: &mut Bow, unit: LengthUnit) 
         ui.add_space(4.0);
         ui.label(tr("A knot, two loops and two tails of ribbon, sewn together and tacked to the place."));
         ui.add_space(6.0);
-        // Not in a grid: that asks for a second pass, in which the click that opened the dialog would close it again.
-        let rows = [
-            ("Width of the ribbon", &mut bow.width, BOW_WIDTHS),
-            ("Length of the loops", &mut bow.loops, BOW_LOOPS),
-            ("Length of the tails", &mut bow.tails, BOW_TAILS),
-        ];
-        for (text, metres, range) in rows {
-            ui.horizontal(|ui| {
-                let layout = egui::Layout::left_to_right(egui::Align::Center);
-                let label = ui.allocate_ui_with_layout(egui::vec2(170.0, 22.0), layout, |ui| {
-                    ui.set_min_width(170.0);
-                    ui.label(tr(text))
-                });
-                if let Some(new) = length_field(ui, ("bow", text), &label.inner, *metres, unit) {
+        egui::Grid::new("measures of a bow").num_columns(2).spacing([12.0, 6.0]).show(ui, |ui| {
+            let rows = [
+                ("Width of the ribbon", &mut bow.width, BOW_WIDTHS),
+                ("Length of the loops", &mut bow.loops, BOW_LOOPS),
+                ("Length of the tails", &mut bow.tails, BOW_TAILS),
+            ];
+            for (text, metres, range) in rows {
+                let label = ui.label(tr(text));
+                if let Some(new) = length_field(ui, ("bow", text), &label, *metres, unit) {
                     *metres = new.clamp(*range.start(), *range.end());
                 }
-            });
-        }
+                ui.end_row();
+            }
+        });
         bow.loops = bow.loops.max(bow.width);
         ui.add_space(4.0);
         ui.label(tr("Crisp cloth holds its loops up; in soft cloth they hang."));
