@@ -24,7 +24,8 @@ pub fn check() -> Result<(), Failure> {
     }
 }
 
-/// Reports why the program ends, each fault of a garment in a line of its own. A signal is reported once, by whichever thread is first.
+/// Reports why the program ends, each fault of a garment in a line of its own. A signal is reported once, by whichever thread is
+/// first.
 pub fn tell(failure: &Failure) {
     match failure {
         Failure::Faults(faults) => {

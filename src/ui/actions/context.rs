@@ -183,14 +183,7 @@ impl FrameContext {
             Need::PlacedFirst => {
                 (self.placed, "No piece stands round the body: place some first (Garment › Place pieces)")
             }
-            Need::PlacedOrPairs if self.sewn => (
-                self.placed || self.has_pairs(),
-                "No piece stands round the body, and there are no marks: place the pieces (Garment › Place pieces) or paint marks, then dress",
-            ),
-            Need::PlacedOrPairs => (
-                self.placed || self.has_pairs(),
-                "There are neither seams nor marks, and no piece stands round the body: sew the edges (Pattern › Tools › Sew), place the pieces (Garment › Place pieces), then dress",
-            ),
+            Need::PlacedOrPairs => (self.placed || self.has_pairs(), self.what_to_sew()),
             Need::Pairs => (self.has_pairs(), "Paint at least one mark on a piece and one on the body first"),
             Need::NewPairs => (
                 self.has_pairs(),
@@ -241,6 +234,18 @@ impl FrameContext {
             Need::Twisted => (self.twisted, "No seam is twisted"),
         };
         (!is_there).then(|| tr(words))
+    }
+
+    /// Why there is nothing to dress, where no piece is placed and there are no marks.
+    fn what_to_sew(&self) -> &'static str {
+        match self.sewn {
+            true => {
+                "No piece stands round the body, and there are no marks: place the pieces (Garment › Place pieces) or paint marks, then dress"
+            }
+            false => {
+                "There are neither seams nor marks, and no piece stands round the body: sew the edges (Pattern › Tools › Sew), place the pieces (Garment › Place pieces), then dress"
+            }
+        }
     }
 
     fn lacks_file(&self, action: Action) -> Option<&'static str> {
