@@ -19,9 +19,8 @@ use crate::pattern::{Button, Edge, EdgeRef, Fold, InternalLine, Pattern, Piece, 
 const OUTSIDE: f64 = 0.064;
 /// Distance of the waistband as placed from the waist taken as round, metres.
 const OUTSIDE_BAND: f64 = 0.052;
-/// Distance of a tack from the lower edge of the waistband, and from the top of the fold that it holds, metres.
-const TACK_ABOVE: f64 = 0.004;
-const TACK_BELOW: f64 = 0.004;
+/// Distance of the tack of a pleat from the waist, metres.
+const TACKED: f64 = 0.004;
 /// Edges of a panel, after the three of its hem: along the inner fold of the next panel's pleat, at the waist, along both halves of its
 /// own pleat's upper edge, and along its pleat's inner fold.
 const NEXT: usize = 3;
@@ -71,24 +70,23 @@ pub fn pleated_skirt(form: &Form, cut: &Pleats) -> Pattern {
     for (i, &band) in bands.iter().enumerate() {
         sew((band, half), (bands[1 - i], half + 2));
     }
-    tack_tops(&mut garment.pattern, &panels, bands, cut.depth);
+    tack_tops(&mut garment.pattern, &panels, cut.depth);
     garment.pattern
 }
 
-/// Tacks the outer fold of each of `panels` to the waistband at its top, where the pleat lies `depth` metres over the panel before it:
-/// only what shows is sewn to the band, and the corner of a pleat would stand off.
-fn tack_tops(pattern: &mut Pattern, panels: &[PieceId], bands: [PieceId; 2], depth: f64) {
-    let half = panels.len() / 2;
-    for (i, &panel) in panels.iter().enumerate() {
-        let seam = (i + panels.len() - 1) % panels.len();
-        let [band, own] = [bands[seam / half], panel].map(|piece| pattern.pieces.get(&piece).map(Arc::clone));
-        let (Some(band), Some(own)) = (band, own) else { continue };
-        let [fold] = &own.lines[..] else { continue };
-        let before = band.edge_ends(seam % half);
-        let at = before.1 - (before.1 - before.0).normalize_or_zero() * depth + DVec2::Y * TACK_ABOVE;
-        let on = fold.end + (fold.edges[0].start - fold.end).normalize_or_zero() * TACK_BELOW;
-        let at = PiecePoint { piece: bands[seam / half], at };
-        pattern.add_button(Button::tack(at, PiecePoint { piece: panel, at: on }));
+/// Tacks the outer fold of each of `panels`, near its top, to the panel before it, over which the pleat lies by `depth` metres: only what
+/// shows is sewn to the band, and the corner of a pleat would stand off.
+fn tack_tops(pattern: &mut Pattern, panels: &[PieceId], depth: f64) {
+    for (i, &id) in panels.iter().enumerate() {
+        let Some(panel) = pattern.pieces.get(&id).map(Arc::clone) else { continue };
+        let [fold] = &panel.lines[..] else { continue };
+        let ([low, top], (corner, along)) = ([fold.edges[0].start, fold.end], panel.edge_ends(WAIST));
+        let down = panel.edge_ends(NEXT).0 - corner;
+        let at = corner + (along - corner).normalize_or_zero() * depth + down.normalize_or_zero() * TACKED;
+        let on = top + (low - top).normalize_or_zero() * TACKED;
+        // All panels are alike.
+        let before = panels[(i + panels.len() - 1) % panels.len()];
+        pattern.add_button(Button::tack(PiecePoint { piece: before, at }, PiecePoint { piece: id, at: on }));
     }
 }
 
