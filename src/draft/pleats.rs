@@ -13,14 +13,12 @@ use crate::draft::form::Form;
 use crate::draft::garment::{Facing, Garment, Part};
 use crate::draft::path::{Path, solved};
 use crate::geometry::ids::PieceId;
-use crate::pattern::{Button, Edge, EdgeRef, Fold, InternalLine, Pattern, Piece, PiecePoint, Roll, Seam};
+use crate::pattern::{Edge, EdgeRef, Fold, InternalLine, Pattern, Piece, Roll, Seam};
 
 /// Distance of the ring of panels as placed, at their seams, from the body taken as round, metres.
 const OUTSIDE: f64 = 0.064;
 /// Distance of the waistband as placed from the waist taken as round, metres.
 const OUTSIDE_BAND: f64 = 0.052;
-/// Distance of the tack of a pleat from the waist, metres.
-const TACKED: f64 = 0.004;
 /// Edges of a panel, after the three of its hem: along the inner fold of the next panel's pleat, at the waist, along both halves of its
 /// own pleat's upper edge, and along its pleat's inner fold.
 const NEXT: usize = 3;
@@ -70,24 +68,7 @@ pub fn pleated_skirt(form: &Form, cut: &Pleats) -> Pattern {
     for (i, &band) in bands.iter().enumerate() {
         sew((band, half), (bands[1 - i], half + 2));
     }
-    tack_tops(&mut garment.pattern, &panels, cut.depth);
     garment.pattern
-}
-
-/// Tacks the outer fold of each of `panels`, near its top, to the panel before it, over which the pleat lies by `depth` metres: only what
-/// shows is sewn to the band, and the corner of a pleat would stand off.
-fn tack_tops(pattern: &mut Pattern, panels: &[PieceId], depth: f64) {
-    for (i, &id) in panels.iter().enumerate() {
-        let Some(panel) = pattern.pieces.get(&id).map(Arc::clone) else { continue };
-        let [fold] = &panel.lines[..] else { continue };
-        let ([low, top], (corner, along)) = ([fold.edges[0].start, fold.end], panel.edge_ends(WAIST));
-        let down = panel.edge_ends(NEXT).0 - corner;
-        let at = corner + (along - corner).normalize_or_zero() * depth + down.normalize_or_zero() * TACKED;
-        let on = top + (low - top).normalize_or_zero() * TACKED;
-        // All panels are alike.
-        let before = panels[(i + panels.len() - 1) % panels.len()];
-        pattern.add_button(Button::tack(PiecePoint { piece: before, at }, PiecePoint { piece: id, at: on }));
-    }
 }
 
 /// A panel with the waist at the top, x = 0 in the middle between its folds at the waist: its pleat at the left, as seen from

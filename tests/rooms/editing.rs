@@ -431,7 +431,11 @@ fn one_crossed_seam_among_others_is_the_only_one_found() {
     for sample in toile::session::samples::Sample::ALL {
         let pattern = sample.project(&toile::body::mannequin::default()).document.pattern;
         assert_eq!(twists(&pattern), Twists::default(), "{sample:?}");
-        for &seam in pattern.seams.keys() {
+        // A piece that is sewn by one seam alone may as well have been drawn from its back.
+        let count =
+            |piece| pattern.seams.values().filter(|s| s.sides.iter().any(|side| side.piece == piece)).count();
+        let is_told = |seam: &Seam| seam.sides.iter().all(|side| count(side.piece) > 1);
+        for (&seam, _) in pattern.seams.iter().filter(|(_, seam)| is_told(seam)) {
             let crossed = done(&pattern, PatternEdit::TurnSeam { seam });
             assert_eq!(twists(&crossed), Twists { pieces: vec![], seams: vec![seam] }, "{sample:?}");
         }

@@ -80,7 +80,8 @@ fn the_back_of_cloth_shows_its_own_colour() {
     let scene = Scene { meshes: vec![Arc::new(inside_out)], ..Default::default() };
     let image = studio.picture(&scene, View::Left, &Look::dark(), SIZE).expect("a picture");
     let [r, g, b] = pixel(&image, 160, 120);
-    assert!(r > g + 20 && b > g, "{r} {g} {b}");
+    // Paler than the front, whose red and blue are 50 below its green.
+    assert!(r > 160 && (5..25).contains(&(g - r)) && (5..30).contains(&(g - b)), "{r} {g} {b}");
 }
 
 #[test]
