@@ -62,7 +62,10 @@ fn what_cannot_be_dressed_is_told_and_writes_nothing() {
     project.document.marks = Default::default();
     place.save("unmarked.toile", &project);
     place.ends_with_words(3, "dress unmarked.toile --out out", "no pair of marks");
-    place.ends_with_words(3, "dress unmarked.toile --out out", "sew its edges and place its pieces");
+    place.ends_with_words(3, "dress unmarked.toile --out out", "place its pieces (Shift+B)");
+    std::sync::Arc::make_mut(&mut project.document.pattern).seams.clear();
+    place.save("unsewn.toile", &project);
+    place.ends_with_words(3, "dress unsewn.toile --out out", "sew its edges and place its pieces");
     place.save("ball.toile", &crate::common::project());
     place.ends_with_words(4, "dress ball.toile --out out --max-ticks 2", "after 2 ticks");
     assert!(place.names("out").is_empty());

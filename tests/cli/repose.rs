@@ -59,8 +59,8 @@ fn cloth_goes_along_with_a_body_that_turns() {
 fn draped_in_each_pose_cloth_falls_on_to_the_lap() {
     let place = Place::new();
     place.ends(0, "dress sample:gathered-skirt --edge-length 0.04 --save skirt.toile --no-picture --out out");
-    place.ends(0, "repose skirt.toile --pose sitting --pose walking --no-picture --out stiff");
-    place.ends(0, "repose skirt.toile --pose sitting --pose walking --drape --no-picture --out fallen");
+    place.ends(0, "repose skirt.toile --pose sitting --pose walking --out stiff");
+    place.ends(0, "repose skirt.toile --pose sitting --pose walking --drape --out fallen");
     let height = |file: &str| {
         let cloth = vertices(&place.read(file));
         cloth.iter().map(|p| p.y).sum::<f64>() / cloth.len() as f64
