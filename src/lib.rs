@@ -10,7 +10,7 @@
 //! | folder | holds | may use |
 //! | --- | --- | --- |
 //! | `geometry` | ids, curves, meshes and adjacency, sparse factorisation, seeded random numbers, how much a parallel task gets, words that any language can say; nothing about cloth | nothing of ours |
-//! | `pattern`  | the flat garment: piece, seam, trims (folds, elastic, stitches, wrinkles), buttons and zips, edges cut for sewing, editing that keeps seam lengths and symmetry, grading to sizes, triangulation, problems a person can fix | geometry |
+//! | `pattern`  | the flat garment: piece, seam, trims (folds, elastic, stitches, wrinkles), buttons, tacks and zips, bows, edges cut for sewing, editing that keeps seam lengths and symmetry, grading to sizes, triangulation, problems a person can fix | geometry |
 //! | `body`     | surface (nearest point, ray, walk), import checks, mannequin, skeleton, poses, bones, landmarks, measurements | geometry |
 //! | `cloth`    | the sewn garment as solvers see it: topology and rest shape, moving state; fabrics; the shapes of trims on it | pattern, geometry |
 //! | `contact`  | collision of cloth with the body, its bones and itself; edges split where they would cut the body | cloth, body, geometry |

@@ -1,5 +1,6 @@
 //! Position of the cloth relative to the body: inside, intersecting, or wrong side out.
 
+use std::borrow::Cow;
 use std::collections::BTreeSet;
 
 use glam::DVec3;
@@ -125,6 +126,10 @@ pub(super) fn on_body(
     body: &BodyIndex<'_>,
     applied: &BTreeSet<PieceId>,
 ) -> OnBody {
+    let garment = match applied.is_empty() {
+        true => Cow::Borrowed(&laid.mesh),
+        false => Cow::Owned(without(laid, applied)),
+    };
     let body_mesh = &body.surface.mesh;
     let body_edges = &body.surface.adjacency.edges;
     let through_body = meetings(&laid.mesh.positions, &laid.edges, body_mesh, body.winding.tree());
@@ -142,7 +147,7 @@ pub(super) fn on_body(
         faces_in_folds: folded.iter().filter(|(_, folded)| *folded).count(),
         faces_between: folded.iter().filter(|(t, folded)| !folded && is_between(laid, body, *t)).count(),
         clearance: Clearance { median: quantile(&distances, 0.5), p95: quantile(&distances, 0.95) },
-        openings: openings(&without(laid, applied), body_mesh, body.winding.tree(), |t| body.is_skin(t)),
+        openings: openings(&garment, body_mesh, body.winding.tree(), |t| body.is_skin(t)),
     }
 }
 

@@ -14,6 +14,15 @@ pub fn signed_area(polygon: &[DVec2]) -> f64 {
     sides(polygon).map(|[a, b]| a.perp_dot(b) / 2.0).sum()
 }
 
+/// Centroid of the area inside the polygon; None where that is nothing.
+pub fn centroid(polygon: &[DVec2]) -> Option<DVec2> {
+    let (sum, area) = sides(polygon).fold((DVec2::ZERO, 0.0), |(sum, area), [a, b]| {
+        let twice = a.perp_dot(b);
+        (sum + (a + b) * (twice / 3.0), area + twice)
+    });
+    (area.abs() > 1e-12).then(|| sum / area)
+}
+
 /// Whether `p` lies inside the polygon, by the even-odd rule.
 pub fn contains(polygon: &[DVec2], p: DVec2) -> bool {
     is_inside(sides(polygon), p)

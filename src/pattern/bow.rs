@@ -15,6 +15,7 @@ use crate::geometry::ids::PieceId;
 use crate::geometry::polygon::{distance_to_segment, is_inside, sides};
 use crate::geometry::words::{Words, words};
 use crate::pattern::piece::flattened_loop;
+use crate::pattern::trims::beyond;
 use crate::pattern::{Button, Edge, EdgeRef, Pattern, Piece, PiecePoint, PlanePose, Roll, Seam, SpacePose};
 
 /// Range of the width of the ribbon, metres.
@@ -73,9 +74,7 @@ impl Bow {
     /// What is out of range, in words.
     pub fn problem(&self) -> Option<Words> {
         let within = |what: Words, value: f64, range: &std::ops::RangeInclusive<f64>| {
-            let (least, most) = (*range.start(), *range.end());
-            (!range.contains(&value))
-                .then(|| words!("{what} is {least} to {most}, not {value}", what, least, most, value))
+            beyond(what, value, *range.start(), *range.end())
         };
         within(words!("the width of the ribbon of a bow (m)"), self.width, &BOW_WIDTHS)
             .or_else(|| within(words!("the length of the loops of a bow (m)"), self.loops, &BOW_LOOPS))
@@ -117,8 +116,7 @@ impl Frame {
             let left = if host.pose.flipped { -DVec2::X } else { DVec2::X };
             return (None, DVec2::from_angle(-host.pose.rotation).rotate(left));
         };
-        let slope = |way: DVec2| (pose.at(at + way * 1e-5) - pose.at(at - way * 1e-5)) / 2e-5;
-        let [x, y] = [slope(DVec2::X), slope(DVec2::Y)];
+        let [x, y] = pose.axes_at(at);
         let out = (x.cross(y) * host.signed_area().signum()).normalize_or(DVec3::Z);
         let up = (DVec3::Y - out * out.y).try_normalize().unwrap_or_else(|| y.normalize_or(DVec3::Y));
         let left = up.cross(out);

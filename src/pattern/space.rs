@@ -35,6 +35,14 @@ impl Roll {
         let flat = self.centre + self.along * d.dot(self.along) + across * (self.radius * sin);
         flat.extend(self.radius * (cos - 1.0))
     }
+
+    /// How the bent cloth at `p` goes on where the piece goes by the unit vector `way`: a unit vector.
+    fn slope(&self, p: DVec2, way: DVec2) -> DVec3 {
+        let across = -self.along.perp();
+        let (sin, cos) = ((p - self.centre).dot(across) / self.radius).sin_cos();
+        let flat = self.along * way.dot(self.along) + across * (cos * way.dot(across));
+        flat.extend(-sin * way.dot(across))
+    }
 }
 
 impl SpacePose {
@@ -47,6 +55,12 @@ impl SpacePose {
     pub fn at(&self, p: DVec2) -> DVec3 {
         let local = self.roll.map_or(p.extend(0.0), |roll| roll.bent(p));
         self.rotation * local + self.translation
+    }
+
+    /// Directions in space, unit vectors, of x and y of the piece's own plane at the point `p` of it.
+    pub fn axes_at(&self, p: DVec2) -> [DVec3; 2] {
+        let local = |way: DVec2| self.roll.map_or(way.extend(0.0), |roll| roll.slope(p, way));
+        [DVec2::X, DVec2::Y].map(|way| self.rotation * local(way))
     }
 
     /// This placement rotated by `turn` about the point `about` and then moved by `by` metres.
@@ -89,6 +103,8 @@ mod tests {
                 let [x, y] = [slope(DVec2::X), slope(DVec2::Y)];
                 assert!((x.length() - 1.0).abs() < 1e-8 && (y.length() - 1.0).abs() < 1e-8);
                 assert!(x.dot(y).abs() < 1e-8);
+                let [own_x, own_y] = pose.axes_at(p);
+                assert!(own_x.distance(x) < 1e-8 && own_y.distance(y) < 1e-8);
             }
         }
     }

@@ -174,7 +174,7 @@ impl Elastic {
 }
 
 /// "WHAT is LEAST to MOST, not VALUE", where that is so.
-fn beyond(what: Words, value: f64, least: f64, most: f64) -> Option<Words> {
+pub(in crate::pattern) fn beyond(what: Words, value: f64, least: f64, most: f64) -> Option<Words> {
     (!(least..=most).contains(&value))
         .then(|| words!("{what} is {least} to {most}, not {value}", what, least, most, value))
 }

@@ -22,8 +22,6 @@ const LOOSE: f64 = 0.02;
 const PLACED: f64 = 170.0 * std::f64::consts::PI / 180.0;
 /// Number of chords for each edge of the border of a part.
 const PIECES: usize = 16;
-/// Distance in a piece, metres, over which the direction of its placed surface is measured.
-const NEAR: f64 = 1e-5;
 
 /// The parts of a pattern's pieces that are placed folded over.
 #[derive(Clone, Debug, Default)]
@@ -90,7 +88,8 @@ impl Turned {
         };
         let (sin, cos) = part.angle.sin_cos();
         let under = p + part.along.perp() * (beyond * (cos - 1.0));
-        pose.at(under) + normal(pose, under) * (beyond * sin)
+        let [x, y] = pose.axes_at(under);
+        pose.at(under) + x.cross(y) * (beyond * sin)
     }
 
     /// Drops parts that are sewn to what does not turn over with them; returns whether there were any.
@@ -223,12 +222,6 @@ fn stretch(piece: &Piece, [from, to]: [f64; 2], border: &mut Vec<DVec2>) {
             (0..=PIECES).map(|k| own[0] + (own[1] - own[0]) * k as f64 / PIECES as f64).collect();
         border.extend(piece.edge_points(edge % count, &shares));
     }
-}
-
-/// The unit normal of a piece placed with `pose`, on the +z side of its plane, at the point `p` of it.
-fn normal(pose: &SpacePose, p: DVec2) -> DVec3 {
-    let [x, y] = [DVec2::X, DVec2::Y].map(|way| pose.at(p + way * NEAR) - pose.at(p - way * NEAR));
-    x.cross(y).normalize_or_zero()
 }
 
 #[cfg(test)]

@@ -12,6 +12,7 @@ use crate::body::measure::section;
 use crate::cloth::{ClothState, Garment};
 use crate::geometry::adjacency::NONE;
 use crate::geometry::ids::PieceId;
+use crate::geometry::polygon::{centroid, sides};
 use crate::wrap::order::Order;
 
 /// Directions of growth for each part. A part is connected within its tier: a sleeve, or both legs of trousers.
@@ -113,23 +114,10 @@ fn limb_centre(surface: &Surface, at: DVec3, along: DVec3) -> Option<DVec3> {
         .map(|c| at + x * c.x + y * c.y)
 }
 
-fn sides(points: &[DVec2]) -> impl Iterator<Item = (DVec2, DVec2)> + '_ {
-    (0..points.len()).map(|i| (points[i], points[(i + 1) % points.len()]))
-}
-
 fn holds_origin(points: &[DVec2]) -> bool {
     let crosses =
-        |(a, b): (DVec2, DVec2)| (a.y > 0.0) != (b.y > 0.0) && a.x - a.y * (b.x - a.x) / (b.y - a.y) > 0.0;
+        |[a, b]: [DVec2; 2]| (a.y > 0.0) != (b.y > 0.0) && a.x - a.y * (b.x - a.x) / (b.y - a.y) > 0.0;
     sides(points).filter(|&side| crosses(side)).count() % 2 == 1
-}
-
-/// Centroid of the area inside a polygon.
-fn centroid(points: &[DVec2]) -> Option<DVec2> {
-    let (sum, area) = sides(points).fold((DVec2::ZERO, 0.0), |(sum, area), (a, b)| {
-        let twice = a.perp_dot(b);
-        (sum + (a + b) * (twice / 3.0), area + twice)
-    });
-    (area.abs() > 1e-12).then(|| sum / area)
 }
 
 #[cfg(test)]

@@ -3,7 +3,7 @@
 use glam::DVec2;
 
 use crate::geometry::ids::MarkId;
-use crate::geometry::polygon::sides;
+use crate::geometry::polygon::centroid;
 use crate::pattern::edit::PatternEdit;
 use crate::pattern::{Bow, Piece, PiecePoint};
 use crate::session::{Command, Document};
@@ -62,22 +62,13 @@ fn bow_place(document: &Document, mark: Option<MarkId>, selection: &Selection) -
         return Some(PiecePoint { piece: edge.piece, at: moved_in(piece, at) });
     }
     let piece = *selection.pieces.first()?;
-    Some(PiecePoint { piece, at: middle(&of(piece)?.flattened(1e-3)) })
+    Some(PiecePoint { piece, at: centroid(&of(piece)?.flattened(1e-3))? })
 }
 
 /// The place [`INSET`] from a place of the outline towards the middle of the piece, or that middle where it is nearer.
 fn moved_in(piece: &Piece, at: DVec2) -> DVec2 {
-    let way = middle(&piece.flattened(1e-3)) - at;
+    let way = centroid(&piece.flattened(1e-3)).map_or(DVec2::ZERO, |middle| middle - at);
     at + way.clamp_length_max(INSET)
-}
-
-/// Centre of the area inside a polygon.
-fn middle(polygon: &[DVec2]) -> DVec2 {
-    let (area, sum) = sides(polygon).fold((0.0, DVec2::ZERO), |(area, sum), [a, b]| {
-        let twice = a.perp_dot(b);
-        (area + twice, sum + (a + b) * twice / 3.0)
-    });
-    sum / area
 }
 
 #[cfg(test)]
