@@ -26,7 +26,7 @@ fn a_bow_is_tacked_to_the_selected_mark_and_taken_back() {
     ask(&mut window);
     let field = window.get_by_label("Width of the ribbon").rect().center();
     assert!(field.is_finite());
-    act(&mut window, "Add the bow");
+    key(&mut window, Modifiers::NONE, Key::Enter);
     let pattern = Arc::clone(&app(&window).session().document().pattern);
     assert_eq!((pattern.pieces.len(), pattern.seams.len()), (before + 5, 7));
     let places: Vec<DVec2> = pattern.buttons.values().map(|tack| tack.button.at).collect();

@@ -6,7 +6,7 @@ use crate::ui::language::short;
 use crate::ui::preferences::units::{LengthUnit, degrees, length, number};
 
 /// Width of a field, points.
-const WIDTH: f32 = 60.0;
+const WIDTH: f32 = 66.0;
 /// Margin around the text in a field.
 const MARGIN: egui::Margin = egui::Margin::symmetric(4, 3);
 

@@ -343,10 +343,14 @@ fn unit_ui(ctx: &egui::Context, raw: &mut RawBody) -> Answer {
     shown.inner.or_cancel(closed)
 }
 
-/// Draws the buttons of a dialog whose fields are chosen: `take`, which gives `answer`, and Cancel.
+/// Draws the buttons of a dialog whose fields are chosen: `take`, which gives `answer`, at Enter, too, and Cancel.
 fn taken_ui(ui: &mut egui::Ui, take: &str, answer: impl FnOnce() -> Answer) -> Answer {
     ui.horizontal(|ui| {
-        let is_taken = ui.button(take).clicked();
+        let button = ui.button(take);
+        if ui.memory(|memory| memory.focused().is_none()) {
+            button.request_focus();
+        }
+        let is_taken = button.clicked();
         if ui.button(tr("Cancel")).clicked() {
             return Answer::Cancel;
         }
