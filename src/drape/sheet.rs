@@ -5,9 +5,6 @@ use glam::{DMat2, DVec2};
 use crate::geometry::adjacency::{Adjacency, NONE};
 use crate::geometry::words::{Words, words};
 
-/// Rest triangles with less than this share of the mean area are rejected as degenerate.
-const LEAST_AREA: f64 = 1e-8;
-
 /// Connectivity and rest shape. Rest coordinates are stored per triangle corner, so that several pattern pieces can share sewn
 /// vertices.
 #[derive(Clone, Debug)]
@@ -74,7 +71,8 @@ impl Sheet {
         }
         let areas: Vec<f64> = rest.iter().map(signed_area).collect();
         let mean = areas.iter().sum::<f64>() / areas.len() as f64;
-        if let Some(t) = areas.iter().position(|&a| a.is_nan() || a <= LEAST_AREA * mean) {
+        // Far above rounding, far below what any mesh of cloth has.
+        if let Some(t) = areas.iter().position(|&a| a.is_nan() || a <= 1e-8 * mean) {
             return Err(SheetError::Area(t));
         }
         let mut vertex_area = vec![0.0; vertices];

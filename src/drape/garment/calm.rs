@@ -2,32 +2,25 @@
 
 use crate::drape::garment::TICK;
 
-/// Seconds after which damping starts to grow, to stop what still creeps or trembles.
-const CALM_AFTER: f64 = 0.5;
-/// Growth of damping from [`CALM_AFTER`] on, 1/s².
-const CALMING: f64 = 10.0;
-/// Largest damping of [`calming`], 1/s of simulated time: about critical for a hanging skirt, whose slow swings then end soonest.
-const CALMEST: f64 = 8.0;
-/// Ticks in which cloth is damped by [`CALMEST`] per second of unslowed time, which stops trembling, and ticks that follow in which
-/// it is damped as much per second of simulated time. Under the first alone, four times that in slowed time, cloth that hangs
-/// freely would only creep to its place: with both in turn a gown rests after 471 ticks instead of 1029, a T-shirt as before.
-const TURNS: [u64; 2] = [120, 300];
-/// Damping at the beginning, 1/s, which falls to nothing within [`GENTLE_FOR`] seconds: cloth is let down rather than dropped. It
-/// comes from a wrap with slack above tight places, and a skirt that falls 5 cm pulls its band over the hips, as soft as it is.
-const GENTLE: f64 = 60.0;
 /// Seconds in which the damping of the beginning falls to nothing.
 pub const GENTLE_FOR: f64 = 0.75;
 
-/// Damping, 1/s, in tick `ticks` since the cloth was disturbed, while a tick lasts `pace` times [`TICK`].
+/// Damping, 1/s, in tick `ticks` since the cloth was disturbed, while a tick lasts `pace` times [`TICK`]. It grows after half a
+/// second, to stop what still creeps or trembles.
 pub fn calming(ticks: u64, pace: f64) -> f64 {
-    let grown = (CALMING * (ticks as f64 * TICK - CALM_AFTER)).clamp(0.0, CALMEST);
-    let [trembles, swings] = TURNS;
+    // By 10/s², up to 8/s: about critical for a hanging skirt, whose slow swings then end soonest.
+    let grown = (10.0 * (ticks as f64 * TICK - 0.5)).clamp(0.0, 8.0);
+    // In turn so much per second of unslowed time, which stops trembling, and per second of simulated time. Under the first alone,
+    // four times that in slowed time, cloth that hangs freely would only creep to its place: with both a gown rests after 471 ticks
+    // instead of 1029, a T-shirt as before.
+    let (trembles, swings) = (120, 300);
     if ticks % (trembles + swings) < trembles { grown / pace } else { grown }
 }
 
-/// Damping, 1/s, of cloth that has been let down for `age` seconds of unslowed time.
+/// Damping, 1/s, of cloth that has been let down for `age` seconds of unslowed time: let down rather than dropped. It comes from a
+/// wrap with slack above tight places, and a skirt that falls 5 cm pulls its band over the hips, as soft as it is.
 pub fn gentle(age: f64) -> f64 {
-    GENTLE * (1.0 - age / GENTLE_FOR).max(0.0)
+    60.0 * (1.0 - age / GENTLE_FOR).max(0.0)
 }
 
 #[cfg(test)]

@@ -6,13 +6,12 @@
 use glam::DVec3;
 
 use crate::cloth::{ClothState, Garment};
+use crate::drape::garment::SEARCH_STEP;
 use crate::geometry::crossings::meetings;
 use crate::geometry::ids::PieceId;
 use crate::geometry::mesh::TriMesh;
 
-/// Distance by which a piece is moved in one step, metres.
-const STEP: f64 = 0.01;
-/// Most steps of [`STEP`]: a piece that still intersects then is left where it was placed.
+/// Most steps of [`SEARCH_STEP`]: a piece that still intersects then is left where it was placed.
 const MOST_STEPS: usize = 40;
 /// Distance (m) in front of a piece within which draped cloth counts as an inner layer that the piece must be outside of.
 const SIGHT: f64 = 0.15;
@@ -48,7 +47,7 @@ pub fn cleared(
                 && meetings(&inner.positions, &inner_edges, &mesh, &mesh.tree()).is_empty()
                 && !meetings(&before, &sights, &inner, &inner_tree).iter().any(is_behind)
         };
-        let shifts = (0..=MOST_STEPS).map(|k| panel.out * (STEP * k as f64));
+        let shifts = (0..=MOST_STEPS).map(|k| panel.out * (SEARCH_STEP * k as f64));
         let Some(shift) = shifts.into_iter().find(|&shift| clear(shift)) else { continue };
         for (place, corner) in places.iter_mut().zip(&garment.corners) {
             if corner.piece == *piece {

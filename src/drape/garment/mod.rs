@@ -6,7 +6,9 @@
 mod calm;
 pub mod clear;
 mod laid;
+mod lift;
 pub mod on_card;
+mod rest;
 mod routes;
 pub mod sewing;
 mod tangles;
@@ -19,14 +21,14 @@ use glam::{DVec2, DVec3};
 
 use crate::body::Surface;
 use crate::cloth::{ClothState, Counters, Fabric, GRAVITY, Garment, Skips};
-use crate::contact::faces::Lying;
 use crate::contact::{Faces, Obstacle, Separation, separation};
 use crate::drape::contact::body::Collider;
 use crate::drape::forces::bending::Bending;
 use crate::drape::garment::calm::{GENTLE_FOR, calming, gentle};
 use crate::drape::garment::laid::{ordered, shortest_sides, springs};
+use crate::drape::garment::lift::LIFTING;
 use crate::drape::garment::on_card::OnCard;
-use crate::drape::garment::tangles::Pulling;
+use crate::drape::garment::tangles::{PARTING, Pulling};
 use crate::drape::garment::worked::{Worked, plates, weighted};
 use crate::drape::sheet::Sheet;
 use crate::drape::solver::net::Spring;
@@ -35,27 +37,16 @@ use crate::drape::solver::small_steps::{
 };
 use crate::drape::solver::ties::SewingSpring;
 use crate::drape::state::State;
-use crate::geometry::crossings::meetings;
 use crate::geometry::ids::PieceId;
-use crate::geometry::mesh::TriMesh;
 use crate::geometry::words::{Words, words};
 
 /// Simulated time of a tick, seconds.
 pub const TICK: f64 = 1.0 / 60.0;
+/// Step in which what is placed is moved until nothing is in its way, metres: pieces off inner layers, waypoints of seams off the body.
+/// It bounds how much farther than needed they come to be.
+const SEARCH_STEP: f64 = 0.01;
 /// Clearance that cloth keeps from the skin besides its own thickness, metres: skin yields by about as much.
 const SKIN: f64 = 0.001;
-/// Share of the offset from the body that interiors of faces and edges must keep; vertices keep all of it.
-const FACE_CLEARANCE: f64 = 0.5;
-/// Faces whose clearance is short by no more than this share of the required clearance are left as they are.
-const NEARLY_CLEAR: f64 = 0.02;
-/// Most that vertices are raised to keep the faces between them off the body, in offsets.
-const MOST_LIFT: f64 = 8.0;
-/// Ticks between two checks of faces against the body.
-const LIFT_TICKS: u64 = 6;
-/// Ticks between two checks for self-intersections while there are none. The first check is after the first tick, the roughest.
-const LOOK_TICKS: u64 = 12;
-/// Ticks between two separation steps while the cloth intersects itself.
-const PART_TICKS: u64 = 4;
 /// Rate at which air damps motion, 1/s.
 const AIR: f64 = 1.5;
 /// Stiffness-proportional damping of bending, seconds.
@@ -64,29 +55,12 @@ const BENDING_DAMPING: f64 = 0.001;
 /// strain control, whose single pass per small step acts far softer than the cloth is; under friction of the full pressure, tight
 /// cloth would keep whatever strain it came with (ALGORITHMS.md 0.5).
 const GRIP: f64 = 10.0;
-/// Cloth is at rest only if no vertex moves farther than this in a tick, metres.
-const REST_WAY: f64 = 5e-5;
-/// Cloth is at rest only if the unbalanced force is at most this share of its weight.
-const REST_RESIDUAL: f64 = 0.01;
-/// Consecutive ticks that must meet [`REST_WAY`] and [`REST_RESIDUAL`] before the cloth counts as resting.
-const QUIET_TICKS: u32 = 12;
-/// Time is slowed down once the unbalanced force is below this share of the weight: the cloth has come down. One pass in a small
-/// step leaves edges only as stiff as mass over the step squared, far softer than woven cloth, so cloth that hangs from a tight
-/// place is overstretched; shorter steps take that strain away.
-const DOWN: f64 = 0.1;
-/// Ticks after which time is slowed down in any case, since cloth caught somewhere may tremble for ever.
-const DOWN_BY: u64 = 300;
-/// Factor by which time slows down in each tick.
-const SLOWING: f64 = 0.9;
-/// Slowest time scale. The extra strain left by the solver shrinks with its square, here to a sixteenth.
-const SLOWEST: f64 = 0.25;
-/// Ticks after which cloth counts as resting in any case.
-const MOST_TICKS: u64 = 1200;
 /// Work in one call of [`DrapedGarment::go_on`]: vertices moved in small steps plus pairs of features tested, or triangles tested
 /// for intersections while deep ones are pulled out; about 0.03 s.
 const MOST_WORK: u64 = 60_000;
-/// Stiffness of the drag constraint, N/m, and its largest force in weights of the garment.
-const HAND: (f64, f64) = (60.0, 1.0);
+/// Stiffness of the drag constraint, N/m; it pulls with at most the weight of the garment. Chosen by trial: it bounds how far cloth
+/// lags behind the hand.
+const HAND: f64 = 60.0;
 
 /// Settings of a [`DrapedGarment`].
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -156,7 +130,7 @@ pub struct DrapedGarment {
     /// Friction coefficient per vertex while `floats`, above zero only for cloth of inner layers; None: no friction.
     rubs: Option<Vec<f64>>,
     progress: Progress,
-    /// Time scale of a tick, [`SLOWEST`]..=1.
+    /// Time scale of a tick, above 0 and up to 1: see [`rest`].
     pace: f64,
     quiet: u32,
     /// Self-intersections at the last check.
@@ -372,9 +346,8 @@ impl DrapedGarment {
     pub fn take(&mut self, vertex: u32) {
         let Some(v) = own_number(&self.fixed.own, vertex) else { return };
         let weight: f64 = self.fixed.mass.iter().sum::<f64>() * GRAVITY.length();
-        let (stiffness, times) = HAND;
         let target = self.state.positions[v];
-        self.small.hand = Some(GrabConstraint { vertex: v as u32, target, stiffness, most: times * weight });
+        self.small.hand = Some(GrabConstraint { vertex: v as u32, target, stiffness: HAND, most: weight });
         self.wake();
     }
 
@@ -515,123 +488,19 @@ impl DrapedGarment {
 
     /// Checks, after some ticks, for faces too near the body and for self-intersections.
     fn look_at(&mut self, cloth: &mut ClothState) {
-        let (ticks, quiet) = (self.progress.ticks, self.quiet >= QUIET_TICKS);
-        if quiet || ticks.is_multiple_of(LIFT_TICKS) {
+        let (ticks, quiet) = (self.progress.ticks, self.is_quiet());
+        if quiet || ticks.is_multiple_of(LIFTING.ticks) {
             self.lift(cloth, quiet);
         }
-        let every = if self.crossings > 0 { PART_TICKS } else { LOOK_TICKS };
+        let every = if self.crossings > 0 { PARTING.ticks } else { PARTING.look_ticks };
         if (quiet || ticks == 1 || ticks.is_multiple_of(every)) && !self.is_tangled() {
             self.part(cloth);
         }
     }
 
-    /// Decides at the end of a tick whether the cloth rests.
-    fn conclude(&mut self) {
-        let (ticks, quiet) = (self.progress.ticks, self.quiet >= QUIET_TICKS);
-        let sound = self.lacking == 0 && (self.crossings == 0 || self.is_tangled());
-        if quiet && !sound {
-            self.quiet = 0;
-        }
-        if self.small.hand.is_none() {
-            let slowed = self.slow_down();
-            self.progress.at_rest = (quiet && sound && !slowed) || ticks >= MOST_TICKS;
-        }
-    }
-
-    /// Lowers the time scale if it is time to. False where it did not change.
-    fn slow_down(&mut self) -> bool {
-        let begins = self.pace < 1.0 || self.progress.residual < DOWN || self.progress.ticks > DOWN_BY;
-        if self.floats || self.pace == SLOWEST || !begins {
-            return false;
-        }
-        let slower = (self.pace * SLOWING).max(SLOWEST);
-        self.ways.iter_mut().for_each(|way| *way *= slower / self.pace);
-        self.pace = slower;
-        self.quiet = 0;
-        true
-    }
-
-    /// Updates residual and speed from the last `span` seconds.
-    fn measure(&mut self, before: &State, span: f64) {
-        let mass = &self.fixed.mass;
-        let (mut unbalanced, mut fastest) = (0.0, 0.0f64);
-        for (v, way) in self.ways.iter_mut().enumerate() {
-            let now = self.state.positions[v] - before.positions[v];
-            unbalanced += mass[v] * (now - *way).length() / (span * span);
-            fastest = fastest.max(now.length() / span);
-            *way = now;
-        }
-        self.age += TICK;
-        let weight = mass.iter().sum::<f64>() * GRAVITY.length();
-        let (residual, speed) = (unbalanced / weight, fastest);
-        self.progress = Progress { ticks: self.progress.ticks + 1, residual, speed, at_rest: false };
-        let still = speed * span < REST_WAY && residual < REST_RESIDUAL;
-        self.quiet = if still { self.quiet + 1 } else { 0 };
-    }
-
     fn write(&self, cloth: &mut ClothState) {
         for (&v, x) in self.fixed.vertices.iter().zip(&self.state.positions) {
             cloth.positions[v as usize] = *x;
-        }
-    }
-
-    /// Raises vertices of faces that come too near the body, twice as much after each time in vain. `precise` also checks edges,
-    /// once no face is too near.
-    fn lift(&mut self, cloth: &ClothState, precise: bool) {
-        let fixed = Arc::clone(&self.fixed);
-        let (garment, surface) = (&*fixed.garment, &*fixed.collider.surface);
-        let mut near = vec![false; garment.vertex_count];
-        for (v, is_near) in self.near_body().into_iter().enumerate() {
-            near[fixed.vertices[v] as usize] = is_near;
-        }
-        let lying =
-            Lying { garment, surface, state: cloth, skips: self.settings.skips, split: None, apart: None };
-        let clearance = FACE_CLEARANCE * fixed.offset;
-        let lacking = self.faces.lacking(lying, &near, clearance, &mut self.counters);
-        let mut raised = self.small.lift().to_vec();
-        // Only cloth that moved ends the count: not every check looks at edges, so one that finds nothing says nothing.
-        self.lifted_in_vain =
-            if self.quiet == 0 { 0 } else { self.lifted_in_vain + i32::from(self.lacking > 0) };
-        let times = 2.0f64.powi(self.lifted_in_vain.min(5));
-        self.lacking = 0;
-        for (vs, &lack) in garment.triangles.iter().zip(&lacking) {
-            for v in vs.iter().filter_map(|&v| own_number(&fixed.own, v)) {
-                let most = MOST_LIFT * fixed.offset;
-                if lack > NEARLY_CLEAR * clearance && raised[v] < most {
-                    let wanted = (self.small.lift()[v] + times * lack).min(most);
-                    self.lacking += usize::from(wanted > raised[v]);
-                    raised[v] = raised[v].max(wanted);
-                }
-            }
-        }
-        if precise && self.lacking == 0 {
-            self.lift_cuts(cloth, &mut raised, times * FACE_CLEARANCE * fixed.offset);
-        }
-        self.small.set_lift(&raised);
-    }
-
-    /// Raises vertices of edges and faces that intersect the body by `by` metres: samples of a face miss the sharpest edges.
-    fn lift_cuts(&mut self, cloth: &ClothState, raised: &mut [f64], by: f64) {
-        let fixed = Arc::clone(&self.fixed);
-        let (garment, surface) = (&*fixed.garment, &*fixed.collider.surface);
-        let laid = |vs: &[u32]| vs.iter().all(|&v| own_number(&fixed.own, v).is_some());
-        let edges: Vec<[u32; 2]> = garment.adjacency.edges.iter().copied().filter(|e| laid(e)).collect();
-        let triangles = garment.triangles.iter().copied().filter(|vs| laid(vs)).collect();
-        let mesh = TriMesh { positions: cloth.positions.clone(), triangles };
-        let body = &surface.mesh;
-        let mut cut = vec![false; raised.len()];
-        let mut mark =
-            |vs: &[u32]| vs.iter().filter_map(|&v| own_number(&fixed.own, v)).for_each(|v| cut[v] = true);
-        for [e, _] in meetings(&mesh.positions, &edges, body, &body.tree()) {
-            mark(&edges[e as usize]);
-        }
-        for [_, t] in meetings(&body.positions, &surface.adjacency.edges, &mesh, &mesh.tree()) {
-            mark(&mesh.triangles[t as usize]);
-        }
-        let most = MOST_LIFT * fixed.offset;
-        for (raised, _) in raised.iter_mut().zip(cut).filter(|(raised, cut)| *cut && **raised < most) {
-            *raised = (*raised + by).min(most);
-            self.lacking += 1;
         }
     }
 }

@@ -9,12 +9,11 @@ use glam::DVec3;
 use rayon::prelude::*;
 
 use crate::body::Surface;
+use crate::drape::garment::SEARCH_STEP;
 
 /// Directions round the seam that are tried for the waypoints.
 const SIDES: u32 = 16;
-/// Step of the search for a waypoint, metres.
-const STEP: f64 = 0.01;
-/// Most steps of [`STEP`]: a line that is deeper in the body than this was not caught by the placement.
+/// Most steps of [`SEARCH_STEP`]: a line that is deeper in the body than this was not caught by the placement.
 const MOST_STEPS: u32 = 20;
 /// Deepest point of a line inside the body, as a share of the length inside, up to which the body only bulges into it. Through
 /// the middle of a circle it is half the diameter. A deeper line runs through a limb.
@@ -140,7 +139,7 @@ fn middle([a, b]: [DVec3; 2]) -> DVec3 {
 
 /// The midpoint of a spring, moved `steps` steps towards `way`.
 fn aside(ends: [DVec3; 2], way: DVec3, steps: u32) -> DVec3 {
-    middle(ends) + way * (STEP * f64::from(steps))
+    middle(ends) + way * (SEARCH_STEP * f64::from(steps))
 }
 
 fn is_free_over(surface: &Surface, [a, b]: [DVec3; 2], over: DVec3) -> bool {
@@ -151,7 +150,7 @@ fn is_free_over(surface: &Surface, [a, b]: [DVec3; 2], over: DVec3) -> bool {
 /// free straight line is not enough: pieces that slid along an arm until both are below it would leave it for good.
 fn may_be_drawn(surface: &Surface, ends: [DVec3; 2], place: DVec3) -> bool {
     let middle = middle(ends);
-    let ways = (place.distance(middle) / STEP).ceil().max(1.0) as u32;
+    let ways = (place.distance(middle) / SEARCH_STEP).ceil().max(1.0) as u32;
     (0..ways).all(|k| {
         let place = middle.lerp(place, f64::from(k) / f64::from(ways));
         ends.iter().all(|&end| !surface.meets_segment([end, place]))

@@ -20,17 +20,25 @@ use crate::geometry::adjacency::Adjacency;
 use crate::geometry::ids::PieceId;
 use crate::geometry::words::words;
 
-/// Speed at which a seam shrinks, m/s, and the fewest and most ticks that takes.
-const SHRINK: (f64, [u32; 2]) = (0.4, [45, 120]);
-/// Speed (m/s) below which sewn cloth counts as slow. After the seams are shut it slides without weight and friction until it is
-/// under the least tension.
-const SLOW: f64 = 0.02;
-/// Consecutive slow ticks, see [`SLOW`], after which sewing is done.
-const STILL: u32 = 20;
-/// Most ticks that cloth may slide after the seams are shut.
-const PATIENCE: u32 = 240;
-/// Small steps in a tick of sewing; few suffice, since nothing hangs yet.
-const SUBSTEPS: usize = 24;
+/// How seams are shut, and when sewing is done.
+struct Pace {
+    /// Small steps in a tick; few suffice, since nothing hangs yet.
+    substeps: usize,
+    /// Speed at which a seam shrinks, m/s.
+    shrink: f64,
+    /// Fewest and most ticks in which the seams are shut.
+    shut_in: [u32; 2],
+    /// Speed (m/s) below which sewn cloth counts as slow. After the seams are shut it slides without weight and friction until it
+    /// is under the least tension.
+    slow: f64,
+    /// Consecutive slow ticks after which sewing is done.
+    still: u32,
+    /// Most ticks that cloth may slide after the seams are shut.
+    patience: u32,
+}
+
+const PACE: Pace =
+    Pace { substeps: 24, shrink: 0.4, shut_in: [45, 120], slow: 0.02, still: 20, patience: 240 };
 
 /// A garment being sewn.
 #[derive(Clone, Debug)]
@@ -121,7 +129,7 @@ impl Sewing {
             fabrics,
             settings,
             will_be,
-            SUBSTEPS,
+            PACE.substeps,
         )?;
         if !inner.is_empty() {
             worn.pull_over(&inner);
@@ -131,8 +139,8 @@ impl Sewing {
         let threads: Vec<Thread> =
             seams.flat_map(|(_, pairs)| threads(&open, &cloth, pairs, &surface)).collect();
         let widest = threads.iter().map(|t| t.length).fold(0.0, f64::max);
-        let (speed, [least, most]) = SHRINK;
-        let closing = ((widest / speed / TICK).ceil() as u32).clamp(least, most);
+        let [least, most] = PACE.shut_in;
+        let closing = ((widest / PACE.shrink / TICK).ceil() as u32).clamp(least, most);
         let sewing = Self {
             worn,
             sewn: garment,
@@ -161,7 +169,7 @@ impl Sewing {
 
     /// Progress, 0..=1.
     pub fn progress(&self) -> f64 {
-        (f64::from(self.ticks) / f64::from(self.closing + PATIENCE)).min(1.0)
+        (f64::from(self.ticks) / f64::from(self.closing + PACE.patience)).min(1.0)
     }
 
     /// Work counters of collision since they were last taken; resets them.
@@ -180,9 +188,9 @@ impl Sewing {
         }
         let gap = |[a, b]: [u32; 2]| cloth.positions[a as usize].distance(cloth.positions[b as usize]);
         self.widest = self.threads.iter().map(|t| gap(t.ends)).fold(0.0, f64::max);
-        let is_slow = self.ticks >= self.closing && self.worn.progress().speed < SLOW;
+        let is_slow = self.ticks >= self.closing && self.worn.progress().speed < PACE.slow;
         self.still = if is_slow { self.still + 1 } else { 0 };
-        Ok(self.still >= STILL || self.ticks >= self.closing + PATIENCE)
+        Ok(self.still >= PACE.still || self.ticks >= self.closing + PACE.patience)
     }
 
     /// Shortens the sewing springs for the next tick.

@@ -9,14 +9,24 @@ use crate::contact::Intersections;
 use crate::drape::garment::{DrapedGarment, MOST_WORK, own_number};
 use crate::drape::state::State;
 
-/// Separation steps in a row without fewer intersections, after which the intersections stay and the report tells them.
-const MOST_PARTINGS: u32 = 40;
-/// Displacement of intersecting cloth in each separation step, metres.
-const PARTING: f64 = 0.0005;
-/// Steps of one attempt to pull out deep intersections.
-const MOST_PULLS: usize = 80;
-/// Failed attempts in a row after which deep intersections are left.
-const MOST_IN_VAIN: u32 = 3;
+/// How self-intersections are looked for and separated.
+pub(super) struct Parting {
+    /// Ticks between two checks while there are none. The first check is after the first tick, the roughest.
+    pub look_ticks: u64,
+    /// Ticks between two separation steps while there are some.
+    pub ticks: u64,
+    /// Displacement of intersecting cloth in each separation step, metres.
+    way: f64,
+    /// Separation steps in a row without fewer intersections, after which the intersections stay and the report tells them.
+    most: u32,
+    /// Steps of one attempt to pull out deep intersections.
+    most_pulls: usize,
+    /// Failed attempts in a row after which deep intersections are left.
+    most_in_vain: u32,
+}
+
+pub(super) const PARTING: Parting =
+    Parting { look_ticks: 12, ticks: 4, way: 0.0005, most: 40, most_pulls: 80, most_in_vain: 3 };
 
 /// An attempt to pull out cloth that is deep on the wrong side of other cloth.
 #[derive(Clone, Debug)]
@@ -34,7 +44,7 @@ pub(in crate::drape) struct Pulling {
 impl DrapedGarment {
     /// Whether separation has been given up.
     pub(in crate::drape) fn is_tangled(&self) -> bool {
-        self.parting.1 >= MOST_PARTINGS
+        self.parting.1 >= PARTING.most
     }
 
     /// Separates layers that intersect each other, or begins to pull out deep intersections.
@@ -45,12 +55,12 @@ impl DrapedGarment {
         self.counters.self_tests += 1;
         let (met, garment) = (self.met(cloth), &*self.fixed.garment);
         let best = (met.ways(garment, cloth), met.places.len());
-        if self.will_be.is_none() && self.in_vain < MOST_IN_VAIN {
+        if self.will_be.is_none() && self.in_vain < PARTING.most_in_vain {
             let (ways, deep) = met.ways_out(garment, cloth);
             if deep {
                 self.in_vain += 1;
                 let least = self.state.clone();
-                self.pulling = Some(Box::new(Pulling { ways, best, least, left: MOST_PULLS }));
+                self.pulling = Some(Box::new(Pulling { ways, best, least, left: PARTING.most_pulls }));
                 return self.pull(cloth);
             }
         }
@@ -70,7 +80,7 @@ impl DrapedGarment {
         if places == 0 && was == 0 {
             return;
         }
-        let ways = self.of_own(|v| ways[v] * PARTING);
+        let ways = self.of_own(|v| ways[v] * PARTING.way);
         self.small.send(&mut self.state.positions, &fixed.collider, &ways);
     }
 
@@ -125,7 +135,7 @@ impl DrapedGarment {
 
     /// Moves vertices along `ways`, but not into the body, and stops them.
     fn send_out(&mut self, ways: &[DVec3]) {
-        let mut own = self.of_own(|v| ways[v] * PARTING);
+        let mut own = self.of_own(|v| ways[v] * PARTING.way);
         for (v, way) in own.iter_mut().enumerate().filter(|(_, way)| **way != DVec3::ZERO) {
             self.state.velocities[v] = DVec3::ZERO;
             if let Some((normal, height)) = self.small.height(v, self.state.positions[v] + *way) {

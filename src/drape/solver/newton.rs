@@ -12,9 +12,6 @@ use crate::drape::sheet::Sheet;
 use crate::drape::solver::blocks::{BlockMatrix, Slot, solve};
 use crate::geometry::factor::Factor;
 
-/// Halvings of the step in a line search before the direction is given up.
-const MOST_HALVINGS: usize = 12;
-
 /// Inertia and external loads as a quadratic energy of each vertex: w/2 |x - y|² - f·x.
 #[derive(Clone, Debug, Default)]
 pub struct Loads {
@@ -249,7 +246,8 @@ impl Newton {
     ) -> bool {
         let mut step = 1.0;
         let mut after = vec![DVec3::ZERO; x.len()];
-        for _ in 0..MOST_HALVINGS {
+        // Down to a two-thousandth of the step: then the direction is no use.
+        for _ in 0..12 {
             let there: Vec<DVec3> = x.iter().zip(direction).map(|(x, d)| *x + *d * step).collect();
             let reached = self.evaluate(task, contacts, itself, &there, &mut after);
             let slope_after: f64 = after.iter().zip(direction).map(|(g, d)| g.dot(*d)).sum();

@@ -1,0 +1,85 @@
+//! Raises draped cloth off the body where its faces or edges come too near, though its vertices do not.
+
+use std::sync::Arc;
+
+use crate::cloth::ClothState;
+use crate::contact::faces::Lying;
+use crate::drape::garment::{DrapedGarment, own_number};
+use crate::geometry::crossings::meetings;
+use crate::geometry::mesh::TriMesh;
+
+/// How cloth is raised off the body.
+pub(super) struct Lifting {
+    /// Ticks between two checks of faces against the body.
+    pub ticks: u64,
+    /// Share of the offset from the body that interiors of faces and edges must keep; vertices keep all of it.
+    clearance: f64,
+    /// Faces whose clearance is short by no more than this share of it are left as they are.
+    nearly: f64,
+    /// Most that vertices are raised, in offsets.
+    most: f64,
+}
+
+pub(super) const LIFTING: Lifting = Lifting { ticks: 6, clearance: 0.5, nearly: 0.02, most: 8.0 };
+
+impl DrapedGarment {
+    /// Raises vertices of faces that come too near the body, twice as much after each time in vain. `precise` also checks edges,
+    /// once no face is too near.
+    pub(super) fn lift(&mut self, cloth: &ClothState, precise: bool) {
+        let fixed = Arc::clone(&self.fixed);
+        let (garment, surface) = (&*fixed.garment, &*fixed.collider.surface);
+        let mut near = vec![false; garment.vertex_count];
+        for (v, is_near) in self.near_body().into_iter().enumerate() {
+            near[fixed.vertices[v] as usize] = is_near;
+        }
+        let lying =
+            Lying { garment, surface, state: cloth, skips: self.settings.skips, split: None, apart: None };
+        let clearance = LIFTING.clearance * fixed.offset;
+        let lacking = self.faces.lacking(lying, &near, clearance, &mut self.counters);
+        let mut raised = self.small.lift().to_vec();
+        // Only cloth that moved ends the count: not every check looks at edges, so one that finds nothing says nothing.
+        self.lifted_in_vain =
+            if self.quiet == 0 { 0 } else { self.lifted_in_vain + i32::from(self.lacking > 0) };
+        let times = 2.0f64.powi(self.lifted_in_vain.min(5));
+        self.lacking = 0;
+        for (vs, &lack) in garment.triangles.iter().zip(&lacking) {
+            for v in vs.iter().filter_map(|&v| own_number(&fixed.own, v)) {
+                let most = LIFTING.most * fixed.offset;
+                if lack > LIFTING.nearly * clearance && raised[v] < most {
+                    let wanted = (self.small.lift()[v] + times * lack).min(most);
+                    self.lacking += usize::from(wanted > raised[v]);
+                    raised[v] = raised[v].max(wanted);
+                }
+            }
+        }
+        if precise && self.lacking == 0 {
+            self.lift_cuts(cloth, &mut raised, times * LIFTING.clearance * fixed.offset);
+        }
+        self.small.set_lift(&raised);
+    }
+
+    /// Raises vertices of edges and faces that intersect the body by `by` metres: samples of a face miss the sharpest edges.
+    fn lift_cuts(&mut self, cloth: &ClothState, raised: &mut [f64], by: f64) {
+        let fixed = Arc::clone(&self.fixed);
+        let (garment, surface) = (&*fixed.garment, &*fixed.collider.surface);
+        let laid = |vs: &[u32]| vs.iter().all(|&v| own_number(&fixed.own, v).is_some());
+        let edges: Vec<[u32; 2]> = garment.adjacency.edges.iter().copied().filter(|e| laid(e)).collect();
+        let triangles = garment.triangles.iter().copied().filter(|vs| laid(vs)).collect();
+        let mesh = TriMesh { positions: cloth.positions.clone(), triangles };
+        let body = &surface.mesh;
+        let mut cut = vec![false; raised.len()];
+        let mut mark =
+            |vs: &[u32]| vs.iter().filter_map(|&v| own_number(&fixed.own, v)).for_each(|v| cut[v] = true);
+        for [e, _] in meetings(&mesh.positions, &edges, body, &body.tree()) {
+            mark(&edges[e as usize]);
+        }
+        for [_, t] in meetings(&body.positions, &surface.adjacency.edges, &mesh, &mesh.tree()) {
+            mark(&mesh.triangles[t as usize]);
+        }
+        let most = LIFTING.most * fixed.offset;
+        for (raised, _) in raised.iter_mut().zip(cut).filter(|(raised, cut)| *cut && **raised < most) {
+            *raised = (*raised + by).min(most);
+            self.lacking += 1;
+        }
+    }
+}

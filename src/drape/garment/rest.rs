@@ -1,0 +1,91 @@
+//! When draped cloth rests, and how time slows down until it does.
+
+use crate::cloth::GRAVITY;
+use crate::drape::garment::{DrapedGarment, Progress, TICK};
+use crate::drape::state::State;
+
+/// How draped cloth comes to rest.
+struct ComingToRest {
+    /// Cloth rests only if no vertex moves farther than this in a tick, metres.
+    way: f64,
+    /// Cloth rests only if the unbalanced force is at most this share of its weight.
+    residual: f64,
+    /// Consecutive ticks in which both must hold before the cloth counts as resting.
+    quiet_ticks: u32,
+    /// Ticks after which it counts as resting in any case.
+    most_ticks: u64,
+    /// Time is slowed down once the unbalanced force is below this share of the weight: the cloth has come down. One pass in a small
+    /// step leaves edges only as stiff as mass over the step squared, far softer than woven cloth, so cloth that hangs from a tight
+    /// place is overstretched; shorter steps take that strain away.
+    down: f64,
+    /// Ticks after which time is slowed down in any case, since cloth caught somewhere may tremble for ever.
+    down_by: u64,
+    /// Factor by which time slows down in each tick.
+    slowing: f64,
+    /// Slowest time scale. The extra strain left by the solver shrinks with its square, here to a sixteenth.
+    slowest: f64,
+}
+
+const COMING_TO_REST: ComingToRest = ComingToRest {
+    way: 5e-5,
+    residual: 0.01,
+    quiet_ticks: 12,
+    most_ticks: 1200,
+    down: 0.1,
+    down_by: 300,
+    slowing: 0.9,
+    slowest: 0.25,
+};
+
+impl DrapedGarment {
+    /// Whether the cloth has been still for long enough to rest.
+    pub(super) fn is_quiet(&self) -> bool {
+        self.quiet >= COMING_TO_REST.quiet_ticks
+    }
+
+    /// Decides at the end of a tick whether the cloth rests.
+    pub(super) fn conclude(&mut self) {
+        let (ticks, quiet) = (self.progress.ticks, self.is_quiet());
+        let sound = self.lacking == 0 && (self.crossings == 0 || self.is_tangled());
+        if quiet && !sound {
+            self.quiet = 0;
+        }
+        if self.small.hand.is_none() {
+            let slowed = self.slow_down();
+            self.progress.at_rest = (quiet && sound && !slowed) || ticks >= COMING_TO_REST.most_ticks;
+        }
+    }
+
+    /// Lowers the time scale if it is time to. False where it did not change.
+    fn slow_down(&mut self) -> bool {
+        let ComingToRest { down, down_by, slowing, slowest, .. } = COMING_TO_REST;
+        let Progress { residual, ticks, .. } = self.progress;
+        let begins = self.pace < 1.0 || residual < down || ticks > down_by;
+        if self.floats || self.pace == slowest || !begins {
+            return false;
+        }
+        let slower = (self.pace * slowing).max(slowest);
+        self.ways.iter_mut().for_each(|way| *way *= slower / self.pace);
+        self.pace = slower;
+        self.quiet = 0;
+        true
+    }
+
+    /// Updates residual and speed from the last `span` seconds.
+    pub(super) fn measure(&mut self, before: &State, span: f64) {
+        let mass = &self.fixed.mass;
+        let (mut unbalanced, mut fastest) = (0.0, 0.0f64);
+        for (v, way) in self.ways.iter_mut().enumerate() {
+            let now = self.state.positions[v] - before.positions[v];
+            unbalanced += mass[v] * (now - *way).length() / (span * span);
+            fastest = fastest.max(now.length() / span);
+            *way = now;
+        }
+        self.age += TICK;
+        let weight = mass.iter().sum::<f64>() * GRAVITY.length();
+        let (residual, speed) = (unbalanced / weight, fastest);
+        self.progress = Progress { ticks: self.progress.ticks + 1, residual, speed, at_rest: false };
+        let still = speed * span < COMING_TO_REST.way && residual < COMING_TO_REST.residual;
+        self.quiet = if still { self.quiet + 1 } else { 0 };
+    }
+}
