@@ -10,31 +10,20 @@ use crate::repose::conform::{carried, conformed};
 use crate::repose::distance_map::DistanceMap;
 use crate::repose::limit::{limited, raised};
 use crate::repose::normal_check::Looks;
-use crate::repose::reposer::Reposer;
+use crate::repose::reposer::{Reposer, STEPS_PER_LOOK};
 use crate::repose::settings::{Outcome, ReposeSettings};
 
 /// Strain (99th percentile) up to which conforming alone counts as exact, provided that it left no vertex inside the body.
 const EXACT: f64 = 1e-6;
-/// Global steps between two checks of the strain.
-const STEPS_PER_LOOK: usize = 4;
-/// Most global steps in each intermediate pose.
-const STEPS_PER_SUBSTEP: usize = 3 * STEPS_PER_LOOK;
 /// Strain (99th percentile) up to which the cloth goes to the new pose directly. More is resolved through intermediate poses.
 const AT_ONCE: f64 = 0.15;
-/// Global steps that spread the strain over enough cloth for strain limiting to do the rest.
+/// Global steps in which what changed in one place takes effect round it: they spread strain over enough cloth for strain limiting
+/// to do the rest, and follow each repair.
 const FEW_STEPS: usize = 2 * STEPS_PER_LOOK;
-/// Most rounds of strain limiting, each with contacts found anew, for the final result.
-const ROUNDS: usize = 60;
-/// Most rounds of strain limiting for a preview.
-const LIVE_ROUNDS: usize = 6;
-/// Global steps after each repair, in which it must take effect.
-const STEPS_PER_MEND: usize = 8;
 /// Strain (99th percentile) up to which strain limiting, edge by edge, can do the rest.
 const SPREADABLE: f64 = 0.03;
 /// Strain (99th percentile) above which the cloth is too tight for strain limiting: no other edges can take it up.
 const TOO_TIGHT: f64 = 0.05;
-/// Passes of strain limiting and raising faces that cut the body, for each repair allowed.
-const LIMITS_PER_MEND: usize = 2;
 /// Cost of conforming, in global steps.
 const COST_OF_CARRYING: usize = 8;
 /// Cost of one round of strain limiting, in global steps.
@@ -253,13 +242,13 @@ impl Change {
 
     fn mend(&mut self, reposer: &mut Reposer) -> usize {
         if self.outcome.mends < self.care.mends && reposer.lift_faces(&self.state) > 0 {
-            for done in 1..=STEPS_PER_MEND {
+            for done in 1..=FEW_STEPS {
                 reposer.step(&mut self.state, self.care, done);
                 self.outcome.steps += 1;
             }
             self.outcome.mends += 1;
             self.stage = Stage::Mend;
-            return STEPS_PER_MEND;
+            return FEW_STEPS;
         }
         // Folds do not go away by strain limiting.
         let by_steps = self.at_once && self.care.most_substeps > 0;
@@ -275,9 +264,9 @@ impl Change {
         let Some(mut spreading) = spreading else {
             let was = reposer.lengths.p99(&self.state);
             if was <= TOO_TIGHT {
-                let (before, left) = (self.state.clone(), LIMITS_PER_MEND * self.care.mends);
+                let (before, left) = (self.state.clone(), self.care.passes);
                 let live = self.care.mends == 0 && was > self.care.excess;
-                let rounds = if live { LIVE_ROUNDS } else { 0 };
+                let rounds = if live { self.care.rounds } else { 0 };
                 self.stage = Stage::Spread(Some(Box::new(Spreading { before, was, left, rounds })));
             }
             return 1;
@@ -295,7 +284,7 @@ impl Change {
             return COST_OF_LIMITING;
         }
         if spreading.left > 0 && reposer.lengths.p99(&self.state) > self.care.excess {
-            (spreading.left, spreading.rounds) = (spreading.left - 1, ROUNDS);
+            (spreading.left, spreading.rounds) = (spreading.left - 1, self.care.rounds);
             self.stage = Stage::Spread(Some(spreading));
         } else if reposer.lengths.p99(&self.state) > spreading.was {
             self.state = spreading.before;
@@ -351,7 +340,8 @@ impl Change {
             reposer.step(&mut self.state, self.care, *done);
             self.outcome.steps += 1;
         }
-        if *done < STEPS_PER_SUBSTEP && reposer.lengths.p99(&self.state) > SPREADABLE {
+        // Three looks in each intermediate pose: what is left is taken on to the next.
+        if *done < 3 * STEPS_PER_LOOK && reposer.lengths.p99(&self.state) > SPREADABLE {
             self.stage = Stage::Pass(passing);
             return STEPS_PER_LOOK;
         }

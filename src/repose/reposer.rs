@@ -22,8 +22,9 @@ use crate::repose::transfer::Transfer;
 
 /// Acceleration of global steps in the same contacts. (Chebyshev's semi-iteration would amplify cloth that intersects itself.)
 const PACES: [Acceleration; 3] = Acceleration::longer(1.7);
-/// Global steps between two separations of intersecting layers.
-const STEPS_PER_PARTING: usize = 4;
+/// Global steps between two looks at what they reached: the strain and folds of the cloth, and whether its layers intersect, which are
+/// then separated.
+pub(super) const STEPS_PER_LOOK: usize = 4;
 /// Most attempts to move a vertex out of the body at the end: after a move, other skin may be the nearest.
 const SENDS: usize = 4;
 
@@ -201,7 +202,7 @@ impl Reposer {
             weight: false,
         };
         self.relaxer.global_steps(state, step, &PACES);
-        if care.mends > 0 && done.is_multiple_of(STEPS_PER_PARTING) && self.relaxer.part_layers(state) == 0 {
+        if care.mends > 0 && done.is_multiple_of(STEPS_PER_LOOK) && self.relaxer.part_layers(state) == 0 {
             self.relaxer.ease_parting();
         }
     }

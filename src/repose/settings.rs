@@ -15,13 +15,20 @@ pub struct ReposeSettings {
     /// Most repairs at the end, 0..=20: raising faces that cut the body, followed by some steps. Above 0, cloth that is near the
     /// skin of another limb is also moved off it, and intersecting layers are separated.
     pub mends: usize,
+    /// Most passes of strain limiting, 0..=20, each followed by raising faces that cut the body. With none there is one, which raises
+    /// nothing.
+    pub passes: usize,
+    /// Most rounds of strain limiting in a pass, 0..=100, each with contacts found anew.
+    pub rounds: usize,
 }
 
 impl ReposeSettings {
     /// Preview, computed every frame.
-    pub const LIVE: Self = Self { excess: 0.01, most_steps: 4, most_substeps: 0, mends: 0 };
+    pub const LIVE: Self =
+        Self { excess: 0.01, most_steps: 4, most_substeps: 0, mends: 0, passes: 0, rounds: 6 };
     /// Final result.
-    pub const THOROUGH: Self = Self { excess: 0.01, most_steps: 120, most_substeps: 12, mends: 3 };
+    pub const THOROUGH: Self =
+        Self { excess: 0.01, most_steps: 120, most_substeps: 12, mends: 3, passes: 6, rounds: 60 };
 }
 
 /// Statistics of a re-pose.
