@@ -11,11 +11,6 @@ use crate::geometry::parallel::LEAST_SHARE;
 /// A bone as a segment between two ends, metres.
 pub type Bone = [DVec3; 2];
 
-/// Number of intervals of a bone at whose ends its depth in the body is measured.
-const DEPTHS: u32 = 32;
-/// Number of intervals of a step in each of which an edge is taken to pass a bone at most once.
-const MOMENTS: u32 = 4;
-
 /// The bones of a body.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Bones {
@@ -30,9 +25,11 @@ impl Bones {
         let depth = bones
             .iter()
             .map(|[a, b]| {
-                let apart = a.distance(*b) / f64::from(DEPTHS);
-                let at = |k| surface.nearest(a.lerp(*b, f64::from(k) / f64::from(DEPTHS))).distance;
-                -(0..=DEPTHS).map(at).fold(f64::NEG_INFINITY, f64::max) - apart / 2.0
+                // Between two points the bone is at most half their distance nearer to the skin: a bound for any number of them.
+                let count = 32;
+                let apart = a.distance(*b) / f64::from(count);
+                let at = |k| surface.nearest(a.lerp(*b, f64::from(k) / f64::from(count))).distance;
+                -(0..=count).map(at).fold(f64::NEG_INFINITY, f64::max) - apart / 2.0
             })
             .fold(f64::INFINITY, f64::min);
         Self { bones: bones.to_vec(), depth }
@@ -116,8 +113,10 @@ fn crossing([before, after]: [[DVec3; 2]; 2], bone: Bone) -> Option<DVec3> {
         let [a, b] = edge(t);
         (b - a).cross(bone[1] - bone[0]).dot(bone[0] - a)
     };
-    (0..MOMENTS).find_map(|k| {
-        let [mut early, mut late] = [k, k + 1].map(|k| f64::from(k) / f64::from(MOMENTS));
+    // The volume is cubic in time, so that it changes its sign at most three times; in each part of a step it is taken to do so once.
+    let parts = 4;
+    (0..parts).find_map(|k| {
+        let [mut early, mut late] = [k, k + 1].map(|k| f64::from(k) / f64::from(parts));
         // A volume of zero counts as negative: a step that ends just on the bone is seen in this interval or in the next.
         let first = volume(early) > 0.0;
         if first == (volume(late) > 0.0) {

@@ -16,6 +16,7 @@ use crate::cloth::refine::{DependentVertex, Refined, refine};
 use crate::cloth::{ClothState, Counters, Garment, Skip, Skips};
 use crate::contact::Tracker;
 use crate::contact::faces::FACE_CLEARANCE;
+use crate::contact::tracker::SIGHT;
 use crate::geometry::parallel::LEAST_SHARE;
 
 /// Number of consecutive checks in which a split edge must be clear of the body before it is joined again.
@@ -26,9 +27,6 @@ const LONGER: f64 = 1.2;
 const POINTS: u32 = 8;
 /// Most steps in which an inserted vertex is moved out of the body.
 const STEPS_OUT: usize = 16;
-
-/// Distance of vertices from the skin within which resting cloth's edges may cut it, metres on a body 1.5 m large.
-const REACH: f64 = 0.03;
 
 /// A body that cloth may cut, and the offset of the cloth.
 #[derive(Clone, Copy, Debug)]
@@ -68,7 +66,7 @@ impl Splits {
         let mut counters = Counters::default();
         let mut tracker = Tracker::new(garment.vertex_count);
         let ground = Ground { surface, offset: offset * surface.scale(), skips: Skips::default() };
-        let reach = (REACH * surface.scale()).max(garment.mean_edge());
+        let reach = (SIGHT * surface.scale()).max(garment.mean_edge());
         tracker.update(surface, state, reach, ground.skips, &mut counters);
         let all: Vec<u32> = (0..garment.adjacency.edges.len() as u32).collect();
         let found = splits.split(

@@ -17,8 +17,9 @@ use crate::geometry::adjacency::NONE;
 
 /// Distance that a vertex may move with its track plane kept, metres on a body 1.5 m large.
 const PLANE_REUSE: f64 = 0.0002;
-/// Distance beyond which the body is not searched for exactly, metres on a body 1.5 m large.
-const SIGHT: f64 = 0.03;
+/// Distance from the skin up to which the body is searched for exactly, and within which the edges of resting cloth may cut it, metres
+/// on a body 1.5 m large.
+pub(super) const SIGHT: f64 = 0.03;
 /// Motion since the last query below which a vertex counts as slow, metres on a body 1.5 m large. For slow vertices
 /// it is worth computing how far they may move before another part of the body can be nearest.
 const SLOW: f64 = 0.0005;
@@ -52,13 +53,11 @@ enum Track {
     /// so that the vertex stays outside until it has moved that far.
     Clear { at: DVec3, distance: f64 },
     /// The nearest point is known: inside, near, or outside at the height of `at` above the plane. While the vertex
-    /// moves less than `slack` metres its nearest point is on `triangle` or triangles that touch it; [`WALKED`]:
-    /// found by a walk, for the time being. The signed distance to the body is at least `least` metres at `at`.
-    Found { at: DVec3, plane: Plane, triangle: u32, slack: f32, least: f32 },
+    /// moves less than `slack` metres its nearest point is on `triangle` or triangles that touch it; None: found by a walk, for
+    /// the time being, which did not look at parts of the body far from the last one. The signed distance to the body is at
+    /// least `least` metres at `at`.
+    Found { at: DVec3, plane: Plane, triangle: u32, slack: Option<f32>, least: f32 },
 }
-
-/// The slack of a track found by a walk, which did not look at parts of the body far from the last one.
-const WALKED: f32 = f32::NEG_INFINITY;
 
 /// The work done to update a track.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -157,7 +156,7 @@ impl Tracker {
     pub fn moved_along_normal(&mut self, vertex: usize, position: DVec3) {
         if let Track::Found { at, slack, least, .. } = &mut self.tracks[vertex] {
             let moved = ((position - *at).length() as f32).next_up();
-            *slack -= moved;
+            *slack = slack.map(|slack| slack - moved);
             *least -= moved;
             *at = position;
         }
@@ -228,7 +227,7 @@ impl<'a> Ask<'a> {
                 // The vertex was outside and cannot have passed through the whole body: it need not search farther than this.
                 SIGHT * self.scale
             }
-            Track::Found { slack: WALKED, plane, .. } if !self.walks => {
+            Track::Found { slack: None, plane, .. } if !self.walks => {
                 if plane.height(p) > 0.0 {
                     SIGHT * self.scale
                 } else {
@@ -246,10 +245,11 @@ impl<'a> Ask<'a> {
                     let near = self.surface.nearest_by_walk(p, triangle);
                     let least = least - (moved as f32).next_up();
                     let plane = Plane { point: near.point, normal: near.normal };
-                    *track = Track::Found { at: p, plane, triangle: near.triangle, slack: WALKED, least };
+                    *track = Track::Found { at: p, plane, triangle: near.triangle, slack: None, least };
                     return Effort::Walk;
                 }
-                if allow(Skip::Triangles) && moved < f64::from(slack) {
+                if let Some(slack) = slack.filter(|&slack| allow(Skip::Triangles) && moved < f64::from(slack))
+                {
                     let left = slack - (moved as f32).next_up();
                     *track = found(p, self.surface.nearest_round(p, triangle), left, triangle);
                     return Effort::Walk;
@@ -287,5 +287,5 @@ impl<'a> Ask<'a> {
 /// A track with the plane of `n`, found from `p`. `slack` belongs to `triangle`.
 fn found(p: DVec3, n: Nearest, slack: f32, triangle: u32) -> Track {
     let plane = Plane { point: n.point, normal: n.normal };
-    Track::Found { at: p, plane, triangle, slack, least: (n.distance as f32).next_down() }
+    Track::Found { at: p, plane, triangle, slack: Some(slack), least: (n.distance as f32).next_down() }
 }

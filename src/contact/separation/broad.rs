@@ -7,15 +7,13 @@ use crate::geometry::bvh::{Aabb, Bvh};
 use crate::geometry::parallel::LEAST_SEARCHES;
 
 /// A box in single precision, which contains the box in double precision that it was made from.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Around {
     lower: Vec3A,
     upper: Vec3A,
 }
 
 impl Around {
-    const EMPTY: Self = Self { lower: Vec3A::INFINITY, upper: Vec3A::NEG_INFINITY };
-
     pub fn of(exact: &Aabb) -> Self {
         let [lower, upper] = [exact.lower.as_vec3a(), exact.upper.as_vec3a()];
         Self {
@@ -94,13 +92,13 @@ impl Broad {
     /// Moves the boxes, which come in the order of the leaves.
     pub fn fit(&mut self, items: Vec<Around>) {
         self.items = items;
-        self.nodes.resize(self.tree.nodes.len(), Around::EMPTY);
+        self.nodes.resize(self.tree.nodes.len(), Around::default());
         // Children come after their parents.
         for (at, node) in self.tree.nodes.iter().enumerate().rev() {
             self.nodes[at] = if node.is_leaf() {
                 let first = node.first as usize;
                 let items = &self.items[first..first + node.count as usize];
-                items.iter().fold(Around::EMPTY, |all, one| all.joined(one))
+                items.iter().skip(1).fold(items[0], |all, one| all.joined(one))
             } else {
                 self.nodes[at + 1].joined(&self.nodes[node.right as usize])
             };

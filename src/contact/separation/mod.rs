@@ -38,11 +38,6 @@ use crate::geometry::adjacency::Adjacency;
 use crate::geometry::bvh::Aabb;
 use crate::geometry::parallel::{LEAST_SHARE, LEAST_SUMS};
 
-/// Fraction of the distance between two features that remains at least until the next detection; see [`kept`].
-const KEPT: f64 = 0.1;
-/// Smallest remaining distance of two features, metres, if they were not nearer: they stay apart when written with
-/// six decimals or in single precision.
-const FLOOR: f64 = 1e-5;
 /// Smallest fraction of the room between two features of cloth that each of them gets, however small its reach is.
 const LEAST_ROOM: f64 = 0.2;
 /// Most sweeps of projections on to half-spaces, before a vertex is pulled straight back towards its anchor.
@@ -498,9 +493,10 @@ impl Separation {
     }
 }
 
-/// The distance that two features `gap` metres apart keep at least until the next detection, metres.
+/// The distance that two features `gap` metres apart keep at least until the next detection, metres: a tenth, and if they were not
+/// nearer so much that they stay apart when written with six decimals or in single precision.
 fn kept(gap: f64) -> f64 {
-    (KEPT * gap).max(gap.min(FLOOR))
+    (0.1 * gap).max(gap.min(1e-5))
 }
 
 /// The same two features in the other order.
