@@ -16,8 +16,8 @@ const FINEST: f64 = 0.004;
 const WORTH: f64 = 0.25;
 /// Places along a fold at which the width beside it is measured.
 const PLACES: usize = 5;
-/// Chords by which the outline is flattened, metres.
-const CHORDS: f64 = 1e-3;
+/// Tolerance with which outlines and lines are flattened to chords where they are only measured, metres.
+pub const CHORDS: f64 = 1e-3;
 
 /// The length of the edges of the mesh of `piece`, metres: `edge_length`, or less where the piece asks for it or a narrow part is folded
 /// over.

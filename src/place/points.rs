@@ -4,13 +4,13 @@ use glam::{DMat3, DQuat, DVec2, DVec3};
 
 use crate::body::Surface;
 use crate::contact::Bone;
+use crate::pattern::fineness::CHORDS;
 use crate::pattern::{Piece, Roll, SpacePose};
 use crate::place::limbs::{Limb, Part, limbs};
+use crate::wrap::ROUND_LIMBS;
 
 /// Distance between skin and flat pieces before and behind the body, metres on a body 1.5 m large.
 const BEFORE: f64 = 0.05;
-/// Distance between skin and cloth round a limb, metres on a body 1.5 m large.
-const ROUND: f64 = 0.02;
 /// Largest protrusion of the body that flat pieces before and behind it are moved out for, metres on a body 1.5 m large.
 const STANDS_OUT: f64 = 0.25;
 /// Gap between the two sides of a piece that is rolled up, metres.
@@ -122,14 +122,14 @@ pub fn stood_at(piece: &Piece, point: &Point, surface: &Surface) -> SpacePose {
         SpacePose { translation: target - rotation * centre.extend(0.0), rotation, roll }
     };
     let is_limb = !matches!(point.part, Part::Trunk | Part::Head);
-    let least = point.girth_radius + ROUND * scale;
+    let least = point.girth_radius + ROUND_LIMBS * scale;
     if is_limb && width > ROLLED * std::f64::consts::TAU * least {
-        let radius = least.max(width / std::f64::consts::TAU + ROUND * scale / 4.0);
+        let radius = least.max(width / std::f64::consts::TAU + ROUND_LIMBS * scale / 4.0);
         let roll = Roll { centre, along: up, radius: radius * outer };
         return standing(radius - point.reach, Some(roll));
     }
     if is_limb {
-        return standing(ROUND * scale, None);
+        return standing(ROUND_LIMBS * scale, None);
     }
     let flat = standing(0.0, None);
     let back = flat.rotation.inverse();
@@ -161,7 +161,7 @@ impl Frame {
     fn new(piece: &Piece) -> Self {
         let up = piece.pose.piece_from_plane(piece.pose.offset + DVec2::Y).normalize_or(DVec2::Y);
         let across = -up.perp();
-        let outline = piece.flattened(1e-3);
+        let outline = piece.flattened(CHORDS);
         let span = |way: DVec2| {
             let all = outline.iter().map(|p| p.dot(way));
             all.fold((f64::MAX, f64::MIN), |(low, high), s| (low.min(s), high.max(s)))

@@ -8,20 +8,16 @@ use glam::{DVec2, DVec3};
 
 use crate::geometry::ids::PieceId;
 use crate::geometry::polygon;
+use crate::pattern::fineness::CHORDS;
 use crate::pattern::{Fold, InternalLine, Pattern, Piece, SpacePose, Stretch, curve};
+use crate::wrap::{AT_AN_EDGE, EDGE_SAMPLES};
 
-/// Largest distance of the ends of a fold line from the outline, metres.
-const REACHES: f64 = 1e-3;
 /// Largest distance of a fold line from the straight line through its ends, as a share of its length.
 const BOWED: f64 = 0.1;
-/// Chords by which outlines and lines are flattened, metres.
-const CHORDS: f64 = 1e-3;
 /// Share of a seam's side that may lie on the other side of the end of a fold, as drawn by hand.
 const LOOSE: f64 = 0.02;
 /// Largest angle by which cloth is placed folded, radians: its layers must not lie in each other.
 const PLACED: f64 = 170.0 * std::f64::consts::PI / 180.0;
-/// Number of chords for each edge of the border of a part.
-const PIECES: usize = 16;
 
 /// The parts of a pattern's pieces that are placed folded over.
 #[derive(Clone, Debug, Default)]
@@ -210,7 +206,7 @@ fn parts(piece: &Piece, line: usize) -> Option<[Part; 2]> {
 fn place_on(piece: &Piece, p: DVec2) -> Option<f64> {
     let near = (0..piece.outline.len()).map(|i| (i, curve::nearest(&piece.edge_segments(i), p)));
     let (edge, (share, distance)) = near.min_by(|a, b| a.1.1.total_cmp(&b.1.1))?;
-    (distance <= REACHES).then_some(edge as f64 + share)
+    (distance <= AT_AN_EDGE).then_some(edge as f64 + share)
 }
 
 /// Adds points along the outline of `piece`, from the first place to the second.
@@ -218,8 +214,8 @@ fn stretch(piece: &Piece, [from, to]: [f64; 2], border: &mut Vec<DVec2>) {
     let count = piece.outline.len();
     for edge in from as usize..=to as usize {
         let own = [from, to].map(|t| (t - edge as f64).clamp(0.0, 1.0));
-        let shares: Vec<f64> =
-            (0..=PIECES).map(|k| own[0] + (own[1] - own[0]) * k as f64 / PIECES as f64).collect();
+        let share = |k| own[0] + (own[1] - own[0]) * f64::from(k) / f64::from(EDGE_SAMPLES);
+        let shares: Vec<f64> = (0..=EDGE_SAMPLES).map(share).collect();
         border.extend(piece.edge_points(edge % count, &shares));
     }
 }

@@ -87,19 +87,16 @@ pub struct Lies {
     /// For each vertex the outward normal of the skin next to it (zero where there is none), and its height above the
     /// kept offset, metres.
     pub skin: Vec<(DVec3, f64)>,
-    /// For each vertex its degree of contact: 1 on the skin, 0 away from it, and between; [`NOT_LAID`].
-    pub touch: Vec<f64>,
+    /// For each vertex its degree of contact: 1 on the skin, 0 away from it, and between; None where it is not placed.
+    pub touch: Vec<Option<f64>>,
 }
-
-/// Value of [`Lies::touch`] for a vertex that is not placed.
-pub const NOT_LAID: f64 = -1.0;
 
 impl Hinge {
     /// The bend to be removed, as sum of K X. None when not all vertices are placed.
     fn bend(&self, positions: &[DVec3], lies: &Lies) -> Option<DVec3> {
-        let touch = self.vertices.iter().map(|&v| lies.touch[v as usize]).fold(1.0, f64::min);
-        if touch < 0.0 {
-            return None;
+        let mut touch: f64 = 1.0;
+        for v in self.vertices {
+            touch = touch.min(lies.touch[v as usize]?);
         }
         let all: DVec3 = (0..4).map(|i| positions[self.vertices[i] as usize] * self.k[i]).sum();
         if touch == 0.0 {

@@ -7,9 +7,6 @@ use glam::{DVec2, DVec3};
 
 use crate::relax::Rotation;
 
-/// Match of the best rotation, as a fraction of the possible, below which the rotation is undefined.
-const UNTURNED: f64 = 1e-3;
-
 /// Goals of a triangle's corners relative to their centroid: the rest shape `rest` (about its centroid, front up)
 /// rotated in the plane of `corners` to match them best. For collapsed corners `keep` gives the normal of the plane.
 #[inline]
@@ -77,8 +74,9 @@ fn turned([x, y]: [DVec3; 2], flat: [DVec2; 3], rest: &[DVec2; 3], by: Rotation)
     let size = |of: &[DVec2; 3]| of[0].length_squared() + of[1].length_squared() + of[2].length_squared();
     let (present, wanted) = (size(&flat), size(&wanted));
     let length = turn.length_squared();
-    // The rotation is undefined for a mirrored triangle: its first edge then keeps its direction.
-    let turn = if length > UNTURNED * UNTURNED * present * wanted && length > 0.0 {
+    // The rotation is undefined for a mirrored triangle, where the best one matches less than a thousandth of what could: its first
+    // edge then keeps its direction.
+    let turn = if length > 1e-6 * present * wanted && length > 0.0 {
         turn / length.sqrt()
     } else {
         let w = rest[1] - rest[0];

@@ -13,7 +13,7 @@ use crate::contact::{BodyOverlaps, Bones, Faces, Intersections, Plane, Splits, T
 use crate::geometry::crossings::meetings;
 use crate::geometry::parallel::LEAST_SHARE;
 use crate::relax::acceleration::Acceleration;
-use crate::relax::flatten::{Hinges, Lies, NOT_LAID};
+use crate::relax::flatten::{Hinges, Lies};
 use crate::relax::global::{GlobalSolver, STALE_SHARE};
 use crate::relax::goals::turned_rest;
 use crate::relax::matching::{Matching, body_normal};
@@ -22,8 +22,6 @@ use crate::relax::step::GlobalStep;
 use crate::relax::targets::Targets;
 use crate::relax::{Memory, RelaxSettings};
 
-/// Weight on the matrix diagonal of a vertex that must not move: so heavy that its neighbours see it as fixed.
-const FIXED_WEIGHT: f64 = 1e4;
 /// Force by which touching cloth clings to the skin, in weights of the whole cloth, per unit of friction: four weights at the usual
 /// friction of 0.3 (ALGORITHMS.md 1: the friction step is twice the gravity step; contact is uneven).
 const CLING: f64 = 4.0 / 0.3;
@@ -388,7 +386,8 @@ impl Relaxer {
                 let pull;
                 (*weight, pull) = match (mapped[v], fixed[v]) {
                     (true, false) => targets.of(v, state.positions[v], push, force),
-                    (true, true) => (FIXED_WEIGHT, DVec3::ZERO),
+                    // So heavy that its neighbours, whose triangles weigh 2/3 each, see it as fixed.
+                    (true, true) => (1e4, DVec3::ZERO),
                     // Any weight keeps the matrix regular where nothing is placed.
                     (false, _) => (1.0, DVec3::ZERO),
                 };
@@ -472,11 +471,11 @@ impl Relaxer {
         let offset = self.offset();
         let lie = |v: usize| {
             if !state.mapped[v] {
-                return (Default::default(), NOT_LAID);
+                return (Default::default(), None);
             }
-            let Some(plane) = self.tracker.plane(v) else { return Default::default() };
+            let Some(plane) = self.tracker.plane(v) else { return (Default::default(), Some(0.0)) };
             let height = plane.height(self.previous[v]) - self.lift[v] - offset;
-            ((plane.normal, height), 1.0 - (height / offset).clamp(0.0, 1.0))
+            ((plane.normal, height), Some(1.0 - (height / offset).clamp(0.0, 1.0)))
         };
         let vertices = (0..state.positions.len()).into_par_iter().with_min_len(LEAST_SHARE);
         let (skin, touch) = vertices.map(lie).unzip();

@@ -4,7 +4,7 @@
 use glam::DVec3;
 
 use crate::contact::{Plane, Tracker};
-use crate::relax::step::GlobalStep;
+use crate::relax::step::{GlobalStep, STEP_OUT};
 
 /// Weight of the present position, which keeps the matrix regular where nothing holds the cloth.
 const PROXIMAL_WEIGHT: f64 = 1e-4;
@@ -14,8 +14,6 @@ const SLIDE_MOMENTUM: f64 = 0.9;
 const WEIGHTED_MOMENTUM: f64 = 0.8;
 /// Largest push of a contact beyond the offset, metres on a body 1.5 m large.
 const MOST_PUSH: f64 = 0.1;
-/// Step by which cloth on the wrong side is moved away, metres on a body 1.5 m large.
-const SEND_AWAY: f64 = 0.003;
 /// Weight of separating intersecting layers: that of a few triangles, as only the cloth itself is in the way.
 const PARTING_WEIGHT: f64 = 0.3;
 
@@ -24,9 +22,9 @@ pub(super) struct Targets<'a> {
     pub tracker: &'a Tracker,
     /// Normals of the cloth on its front side.
     pub normals: &'a [DVec3],
-    /// Directions away from skin on whose wrong side the cloth was, in steps of [`SEND_AWAY`].
+    /// Directions away from skin on whose wrong side the cloth was, in steps of [`STEP_OUT`].
     pub sent: &'a [DVec3],
-    /// Directions that separate intersecting layers, in steps of [`SEND_AWAY`].
+    /// Directions that separate intersecting layers, in steps of [`STEP_OUT`].
     pub parted: &'a [DVec3],
     /// Extra offsets, metres.
     pub lift: &'a [f64],
@@ -53,7 +51,7 @@ impl Targets<'_> {
     /// Weight of the mapped vertex `v` at `x`, and the move to its target, metres. Its contact multiplier `push`
     /// grows by what it lacks to the offset, and friction is subtracted from the `force` on it.
     pub fn of(&self, v: usize, x: DVec3, push: &mut f64, force: &mut DVec3) -> (f64, DVec3) {
-        let away = SEND_AWAY * self.scale;
+        let away = STEP_OUT * self.scale;
         let contact = self.step.contact;
         let mut weight = PROXIMAL_WEIGHT;
         let mut pull = DVec3::ZERO;

@@ -15,37 +15,15 @@ use crate::relax::step::STEP_CAP;
 use crate::relax::{GlobalStep, RelaxSettings, Relaxer};
 use crate::wrap::Marks;
 use crate::wrap::growth::{Growth, placed};
+use crate::wrap::hold::Hold;
 use crate::wrap::limbs::Limbs;
-use crate::wrap::order::{Order, UNREACHED};
+use crate::wrap::order::Order;
 use crate::wrap::plan::{PLAIN, PLANS, Plan};
 use crate::wrap::roots::{PairStretch, Root, roots};
 use crate::wrap::settling::{SETTLE_STEPS, Settling};
 
-/// Over-relaxation factor of the local passes.
-const LOCAL_FACTOR: f64 = 1.6;
-/// Number of rings of vertices round new ones that the local passes move.
-const RINGS: usize = 2;
-/// Number of global steps after each group of bands, see [`Plan::bands_per_global`].
-const GLOBALS_PER_GROUP: usize = 3;
-/// Number of global steps between two tiers of growth.
-const TIER_STEPS: usize = 15;
-/// Weight of contact while the cloth grows and closes: heavy, so that closing seams do not pull it through a limb.
-const GROW_CONTACT: f64 = 0.3;
-/// How marks hold their vertices while the cloth grows.
-const HOLD: Hold = Hold { weight: 0.3, slack: 0.0 };
-/// How marks hold their vertices after that, on a mesh with edges of [`KEEP_EDGE`], on a body 1.5 m large. It stops a garment that
-/// is too tight from creeping off along the body, as static friction would. The weight grows with the square of the edge length:
-/// with longer edges fewer vertices are along a mark, and the forces of strain are larger.
-const KEEP: Hold = Hold { weight: 0.001, slack: 0.03 };
-/// Edge length at which the weight is that of [`KEEP`], metres on a body 1.5 m large.
-const KEEP_EDGE: f64 = 0.0175;
-/// Number of settling steps before flipped cloth and cloth on the wrong side is turned: by then it is roughly in place.
-const UNFOLD_AFTER: usize = 10;
-/// Factors on the weight of [`HOLD`] in the first settling steps. They are few, so that the matrix changes seldom.
-const HOLD_FADE: [f64; 3] = [1.0, 0.3, 0.1];
-/// Number of settling steps for each factor of [`HOLD_FADE`].
-const HOLD_FADE_STEPS: usize = 4;
-/// Number of settling steps between two separations of intersecting layers.
+/// Number of settling steps between two separations of intersecting layers. Flipped cloth, and cloth on the wrong side, is turned over
+/// only after as many: by then it is roughly in place.
 const STEPS_PER_PARTING: usize = 10;
 /// Number of triangles per fault below which a wrap has failed; fewer faults are repaired on finer meshes.
 const TRIANGLES_PER_FAULT: usize = 150;
@@ -77,14 +55,6 @@ enum Stage {
     BetweenTiers { left: usize },
     Settle(Settling),
     Rest,
-}
-
-/// How marks hold their vertices: the weight, and the distance within which they are free.
-#[derive(Clone, Copy, Debug)]
-struct Hold {
-    weight: f64,
-    /// Distance from the mark's position within which a vertex is free, metres.
-    slack: f64,
 }
 
 /// A wrap in progress.
@@ -238,7 +208,7 @@ impl Dressing {
         }
         relaxer.fix(kept.iter().copied());
         let growth = Growth::new(&garment, &order, &state.mapped);
-        let to_map = order.tier.iter().filter(|&&t| t != UNREACHED).count();
+        let to_map = order.tier.iter().flatten().count();
         let stage = if roots.is_empty() {
             Stage::Rest
         } else {
@@ -425,7 +395,7 @@ impl Dressing {
                 self.stage = if last {
                     Stage::Settle(Settling::from(0, self.draft))
                 } else {
-                    Stage::BetweenTiers { left: TIER_STEPS }
+                    Stage::BetweenTiers { left: self.way().tier_steps }
                 };
                 return;
             }
@@ -454,15 +424,15 @@ impl Dressing {
             if self.way().part {
                 self.relaxer.part_layers(state);
             }
-            for _ in 0..GLOBALS_PER_GROUP {
-                self.global(state, HOLD, false, false);
+            for _ in 0..self.way().globals_per_group {
+                self.global(state, Hold::growing(), false, false);
             }
         }
         self.stage = Stage::Grow { limit, bands: bands + 1, fresh: Vec::new() };
     }
 
     fn between_tiers(&mut self, state: &mut ClothState, left: usize) {
-        self.global(state, HOLD, false, false);
+        self.global(state, Hold::growing(), false, false);
         self.stage = if left > 1 {
             Stage::BetweenTiers { left: left - 1 }
         } else {
@@ -477,16 +447,12 @@ impl Dressing {
         let done = settling.done;
         self.relaxer.splitting = !self.draft;
         let first = settling.is_first();
-        let fading = if first { HOLD_FADE.get(done / HOLD_FADE_STEPS).copied().unwrap_or(0.0) } else { 0.0 };
-        let edge = self.edge_length / (KEEP_EDGE * self.relaxer.surface.scale());
-        let hold = if fading > 0.0 {
-            Hold { weight: HOLD.weight * fading, ..HOLD }
-        } else {
-            Hold { weight: KEEP.weight * edge * edge, slack: KEEP.slack * self.relaxer.surface.scale() }
-        };
-        let moved = self.global(state, hold, done > UNFOLD_AFTER, !first);
+        let fading = if first { Hold::fading(done) } else { None };
+        let kept = Hold::kept(self.edge_length, self.relaxer.surface.scale());
+        let in_place = done > STEPS_PER_PARTING;
+        let moved = self.global(state, fading.unwrap_or(kept), in_place, !first);
         let look = settling.crossed || !self.relaxer.settings.skips.allow(Skip::Crossings);
-        if look && done > UNFOLD_AFTER && done.is_multiple_of(STEPS_PER_PARTING) {
+        if look && in_place && done.is_multiple_of(STEPS_PER_PARTING) {
             settling.crossed = self.relaxer.part_layers(state) > 0;
         }
         if !settling.crossed {
@@ -509,7 +475,7 @@ impl Dressing {
     fn global(&mut self, state: &mut ClothState, hold: Hold, unfold: bool, weight: bool) -> f64 {
         let step = GlobalStep {
             cap: STEP_CAP * self.relaxer.surface.scale(),
-            contact: if unfold { self.contact } else { GROW_CONTACT },
+            contact: if unfold { self.contact } else { self.way().growing_contact },
             hold: hold.weight,
             slack: hold.slack,
             unfold,
@@ -573,7 +539,8 @@ impl Dressing {
     fn relax_new(&mut self, state: &mut ClothState, fresh: &[u32]) {
         let garment = self.relaxer.garment.clone();
         let mut near: BTreeSet<u32> = fresh.iter().copied().collect();
-        for _ in 0..RINGS {
+        let Plan { rings, local_passes, local_factor, .. } = self.way();
+        for _ in 0..rings {
             let ring: Vec<u32> = near
                 .iter()
                 .flat_map(|&v| garment.adjacency.vertex_neighbours.of(v))
@@ -590,8 +557,8 @@ impl Dressing {
             .filter(|&t| garment.triangles[t as usize].iter().all(|&v| state.mapped[v as usize]))
             .collect();
         let triangles: Vec<u32> = triangles.into_iter().collect();
-        for _ in 0..self.way().local_passes {
-            self.relaxer.local_pass(state, &vertices, &triangles, LOCAL_FACTOR);
+        for _ in 0..local_passes {
+            self.relaxer.local_pass(state, &vertices, &triangles, local_factor);
         }
     }
 }
@@ -607,7 +574,7 @@ fn report_unreached(garment: &Garment, order: &Order, problems: &mut Vec<Problem
             .triangles
             .iter()
             .zip(&garment.triangle_pieces)
-            .any(|(vs, p)| p == piece && vs.iter().any(|&v| order.tier[v as usize] == UNREACHED));
+            .any(|(vs, p)| p == piece && vs.iter().any(|&v| order.tier[v as usize].is_none()));
         if lost {
             problems.push(Problem {
                 kind: ProblemKind::Dressing,

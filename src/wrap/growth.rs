@@ -7,10 +7,8 @@ use glam::DVec3;
 use crate::body::Surface;
 use crate::cloth::{ClothState, Garment};
 use crate::geometry::adjacency::NONE;
+use crate::relax::step::STEP_OUT;
 use crate::wrap::order::Order;
-
-/// Step by which a new vertex is pushed out of the body, metres on a body 1.5 m large.
-const PUSH_STEP: f64 = 0.003;
 
 /// The front of growth: vertices that can be placed next, sorted by tier, distance and number.
 #[derive(Clone, Debug, Default)]
@@ -58,8 +56,8 @@ impl Growth {
                 }
                 for w in garment.triangles[beyond as usize] {
                     let i = w as usize;
-                    if !mapped[i] && order.tier[i] != crate::wrap::order::UNREACHED {
-                        self.ready.insert((order.tier[i], order.distance[i].to_bits(), w));
+                    if let (false, Some(tier)) = (mapped[i], order.tier[i]) {
+                        self.ready.insert((tier, order.distance[i].to_bits(), w));
                     }
                 }
             }
@@ -115,7 +113,7 @@ pub fn placed(
 
 /// Pushes `p` out of the body along the parents' normal: beside an arm the nearest skin is often the wrong side.
 fn pushed_out(surface: &Surface, p: DVec3, normal: DVec3, offset: f64, pushes: usize) -> DVec3 {
-    let step = PUSH_STEP * surface.scale();
+    let step = STEP_OUT * surface.scale();
     let mut q = p;
     for _ in 0..pushes {
         let near = surface.nearest(q);

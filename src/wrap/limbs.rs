@@ -39,14 +39,15 @@ impl Limbs {
         for (_, pairs) in &garment.seam_pairs {
             let Some(&[a, b]) = pairs.first() else { continue };
             let (a, b) = (garment.corners[a as usize].piece, garment.corners[b as usize].piece);
-            if order.piece_tier[&a] == order.piece_tier[&b] {
+            if order.piece_tier.get(&a) == order.piece_tier.get(&b) {
                 let (low, high) = (part_of[&a].min(part_of[&b]), part_of[&a].max(part_of[&b]));
                 part_of.values_mut().filter(|part| **part == high).for_each(|part| *part = low);
             }
         }
         let mut part = vec![u32::MAX; garment.vertex_count];
         for (vs, piece) in garment.triangles.iter().zip(&garment.triangle_pieces) {
-            for &v in vs.iter().filter(|&&v| order.tier[v as usize] == order.piece_tier[piece]) {
+            let tier = order.piece_tier.get(piece).copied();
+            for &v in vs.iter().filter(|&&v| order.tier[v as usize] == tier) {
                 part[v as usize] = part_of[piece];
             }
         }

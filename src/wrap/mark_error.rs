@@ -7,9 +7,6 @@ use crate::cloth::{ClothState, FlatPiece, Garment};
 use crate::wrap::Marks;
 use crate::wrap::roots::{Stroke, lifted};
 
-/// Number of points compared on each pair of marks, ends included.
-const SAMPLES: usize = 51;
-
 /// Distances, metres, between points of cloth marks and points of their partners (raised to the offset above the
 /// skin) at the same fraction of their length.
 #[derive(Clone, Copy, Debug, Default, PartialEq, serde::Serialize, serde::Deserialize)]
@@ -37,8 +34,9 @@ pub fn mark_error(
         let skin =
             Stroke::new(body.points.iter().map(|&p| lifted(surface, p, offset)).collect(), DVec3::length);
         let piece = FlatPiece::new(garment, cloth.piece);
-        for i in 0..SAMPLES {
-            let fraction = i as f64 / (SAMPLES - 1) as f64;
+        // The ends and 49 points between: on a stroke half a metre long one every centimetre.
+        for i in 0..=50 {
+            let fraction = f64::from(i) / 50.0;
             let uv = flat.at(fraction * flat.length());
             let place = piece.inside(garment, uv).and_then(|place| place.point(garment, state));
             let Some(place) = place else { continue };

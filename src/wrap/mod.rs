@@ -3,6 +3,7 @@
 pub mod coarser;
 pub mod dressing;
 pub mod growth;
+mod hold;
 mod limbs;
 pub mod mark_error;
 pub mod marks;
@@ -17,6 +18,6 @@ pub use coarser::coarser;
 pub use dressing::{Dressed, Dressing, Phase};
 pub use mark_error::{MarkError, mark_error};
 pub use marks::{BodyMark, ClothMark, ClothSide, MarkPlace, Marks, Tie};
-pub use placed::RUNS_ALONG;
+pub use placed::{AT_AN_EDGE, EDGE_SAMPLES, RUNS_ALONG};
 pub use roots::{PairStretch, stretches};
-pub use suggest::{Stand, stand, suggested};
+pub use suggest::{ROUND_LIMBS, Stand, stand, suggested};

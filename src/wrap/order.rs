@@ -1,6 +1,7 @@
 //! Order of growth: pieces with marks first, then those sewn to them, and so on (tiers); within a tier by distance.
 
 use std::cmp::Reverse;
+use std::collections::btree_map::Entry;
 use std::collections::{BTreeMap, BinaryHeap, VecDeque};
 
 use crate::cloth::Garment;
@@ -10,31 +11,29 @@ use crate::wrap::roots::Root;
 /// Order in which vertices are placed.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Order {
-    /// For each vertex its tier, the lowest of its pieces; [`UNREACHED`] where no seam leads to a mark.
-    pub tier: Vec<u32>,
+    /// For each vertex its tier, the lowest of its pieces; None where no seam leads to a mark.
+    pub tier: Vec<Option<u32>>,
     /// For each vertex its distance over the mesh, metres: in tier 0 to the nearest mark, else to the seams with earlier tiers.
     pub distance: Vec<f64>,
     /// Number of tiers.
     pub tiers: u32,
-    /// For each piece its tier.
+    /// The tier of each piece to which seams lead from a mark.
     pub piece_tier: BTreeMap<PieceId, u32>,
 }
-
-/// Tier of pieces and vertices to which no seam leads from a mark.
-pub const UNREACHED: u32 = u32::MAX;
 
 impl Order {
     /// The order of growth from `roots`; `marked` are the pieces with marks.
     pub fn new(garment: &Garment, roots: &[Root], marked: &[PieceId]) -> Self {
         let piece_tier = piece_tiers(garment, marked);
-        let mut tier = vec![UNREACHED; garment.vertex_count];
+        let mut tier = vec![None; garment.vertex_count];
         for (t, vs) in garment.triangles.iter().enumerate() {
-            let of_piece = piece_tier[&garment.triangle_pieces[t]];
+            let Some(&of_piece) = piece_tier.get(&garment.triangle_pieces[t]) else { continue };
             for &v in vs {
-                tier[v as usize] = tier[v as usize].min(of_piece);
+                let own = &mut tier[v as usize];
+                *own = Some(own.map_or(of_piece, |tier: u32| tier.min(of_piece)));
             }
         }
-        let tiers = piece_tier.values().filter(|&&t| t != UNREACHED).map(|t| t + 1).max().unwrap_or(0);
+        let tiers = piece_tier.values().map(|t| t + 1).max().unwrap_or(0);
         let mut distance = vec![f64::INFINITY; garment.vertex_count];
         for current in 0..tiers {
             let mut sources: Vec<(u32, f64)> = Vec::new();
@@ -42,7 +41,8 @@ impl Order {
                 sources.extend(roots.iter().map(|r| (r.vertex, r.distance)));
             } else {
                 for v in 0..garment.vertex_count as u32 {
-                    if tier[v as usize] < current && touches(garment, v, &piece_tier, current) {
+                    let is_before = tier[v as usize].is_some_and(|tier| tier < current);
+                    if is_before && touches(garment, v, &piece_tier, current) {
                         sources.push((v, 0.0));
                     }
                 }
@@ -59,11 +59,11 @@ fn touches(garment: &Garment, v: u32, piece_tier: &BTreeMap<PieceId, u32>, tier:
         .vertex_triangles
         .of(v)
         .iter()
-        .any(|&t| piece_tier[&garment.triangle_pieces[t as usize]] == tier)
+        .any(|&t| piece_tier.get(&garment.triangle_pieces[t as usize]) == Some(&tier))
 }
 
 fn piece_tiers(garment: &Garment, marked: &[PieceId]) -> BTreeMap<PieceId, u32> {
-    let mut tiers: BTreeMap<PieceId, u32> = garment.pieces.iter().map(|&(p, _)| (p, UNREACHED)).collect();
+    let mut tiers: BTreeMap<PieceId, u32> = BTreeMap::new();
     let mut sewn: BTreeMap<PieceId, Vec<PieceId>> = BTreeMap::new();
     for (_, pairs) in &garment.seam_pairs {
         if let Some(&[a, b]) = pairs.first() {
@@ -74,15 +74,15 @@ fn piece_tiers(garment: &Garment, marked: &[PieceId]) -> BTreeMap<PieceId, u32> 
     }
     let mut queue: VecDeque<PieceId> = VecDeque::new();
     for &piece in marked {
-        if tiers.insert(piece, 0) == Some(UNREACHED) {
+        if tiers.insert(piece, 0).is_none() {
             queue.push_back(piece);
         }
     }
     while let Some(piece) = queue.pop_front() {
         let next = tiers[&piece] + 1;
         for &other in sewn.get(&piece).into_iter().flatten() {
-            if tiers[&other] == UNREACHED {
-                tiers.insert(other, next);
+            if let Entry::Vacant(tier) = tiers.entry(other) {
+                tier.insert(next);
                 queue.push_back(other);
             }
         }
@@ -96,7 +96,7 @@ fn spread(
     piece_tier: &BTreeMap<PieceId, u32>,
     current: u32,
     sources: &[(u32, f64)],
-    tier: &[u32],
+    tier: &[Option<u32>],
     distance: &mut [f64],
 ) {
     let mut best: BTreeMap<u32, f64> = BTreeMap::new();
@@ -115,7 +115,7 @@ fn spread(
         }
         for &t in garment.adjacency.vertex_triangles.of(v) {
             let t = t as usize;
-            if piece_tier[&garment.triangle_pieces[t]] != current {
+            if piece_tier.get(&garment.triangle_pieces[t]) != Some(&current) {
                 continue;
             }
             let vs = garment.triangles[t];
@@ -130,7 +130,7 @@ fn spread(
         }
     }
     for (v, d) in best {
-        if tier[v as usize] == current {
+        if tier[v as usize] == Some(current) {
             distance[v as usize] = d;
         }
     }

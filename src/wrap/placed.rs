@@ -6,6 +6,7 @@ use glam::{DVec2, DVec3};
 
 use crate::geometry::ids::PieceId;
 use crate::geometry::polygon::contains;
+use crate::pattern::fineness::CHORDS;
 use crate::pattern::{CutPattern, EdgeRef, Piece, SpacePose};
 
 /// Cosine between a piece's outward normal and the front or back direction above which the piece may get marks.
@@ -18,11 +19,11 @@ const AS_HIGH: f64 = 0.1;
 pub const RUNS_ALONG: f64 = 0.6;
 
 /// Distance within which a point is on an edge, metres.
-const AT_AN_EDGE: f64 = 1e-3;
+pub const AT_AN_EDGE: f64 = 1e-3;
 /// Distance below an upper edge at which a point is tested to be on the piece, metres.
 const UNDER: f64 = 5e-3;
 /// Number of straight segments by which an edge is approximated.
-const EDGE_SAMPLES: u32 = 16;
+pub const EDGE_SAMPLES: u32 = 16;
 
 #[derive(Clone)]
 pub(super) struct Panel<'a> {
@@ -427,7 +428,7 @@ fn placed_panels(pattern: &CutPattern) -> Vec<Panel<'_>> {
                 pose,
                 lifted,
                 normal: pose.rotation * side,
-                outline: piece.flattened(1e-3),
+                outline: piece.flattened(CHORDS),
             })
         })
         .collect()

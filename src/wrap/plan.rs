@@ -7,8 +7,18 @@ use crate::relax::step::HEAVY_CONTACT;
 pub(super) struct Plan {
     /// Number of local passes after each band of growth (ALGORITHMS.md 8.1).
     pub local_passes: usize,
+    /// Over-relaxation factor of the local passes, 1 to below 2.
+    pub local_factor: f64,
+    /// Number of rings of vertices round new ones that the local passes move.
+    pub rings: usize,
     /// Number of bands between groups of global steps.
     pub bands_per_global: usize,
+    /// Number of global steps in a group.
+    pub globals_per_group: usize,
+    /// Number of global steps between two tiers of growth.
+    pub tier_steps: usize,
+    /// Weight of contact while the cloth grows and closes: heavy, so that closing seams do not pull it through a limb.
+    pub growing_contact: f64,
     /// Number of steps by which a new vertex is pushed out of the body before it goes to the nearest skin.
     pub pushes: usize,
     /// Whether layers that intersect while growing are separated at once, and not only when all cloth is placed: deep
@@ -33,7 +43,18 @@ pub(super) const PLANS: [Plan; 8] = [
     Plan { along_limbs: true, contact: HEAVY_CONTACT, ..THOROUGH },
 ];
 /// The quickest plan, with a light contact.
-pub(super) const PLAIN: Plan =
-    Plan { local_passes: 6, bands_per_global: 3, pushes: 30, part: false, along_limbs: false, contact: 0.03 };
+pub(super) const PLAIN: Plan = Plan {
+    local_passes: 6,
+    local_factor: 1.6,
+    rings: 2,
+    bands_per_global: 3,
+    globals_per_group: 3,
+    tier_steps: 15,
+    growing_contact: 0.3,
+    pushes: 30,
+    part: false,
+    along_limbs: false,
+    contact: 0.03,
+};
 /// More relaxation of what has just grown.
 const THOROUGH: Plan = Plan { local_passes: 12, bands_per_global: 1, ..PLAIN };

@@ -23,17 +23,16 @@ const TURNED_AWAY: f64 = 0.3;
 const STEP: f64 = 0.005;
 /// Distance of strokes from the sides of their piece, metres.
 const INSET: f64 = 0.015;
-/// Distance of the ring under the arms, and under the top of the side seams, metres on a body 1.5 m large.
-const UNDER_ARM: f64 = 0.02;
-/// Distance of a ring that carries a garment under its upper border, metres on a body 1.5 m large.
-const UNDER_TOP: f64 = 0.02;
+/// Distance of a ring of strokes under what it must stay clear of, metres on a body 1.5 m large: the arms and the top of the side
+/// seams, or the upper border of a garment that it carries.
+const RING_UNDER: f64 = 0.02;
 /// Largest distance from the middle at which paths down from the shoulders begin, as a fraction of the trunk's half
 /// breadth: farther out they would run round an arm.
 const INSIDE_ARMS: f64 = 0.75;
 /// Distance beyond the start of the arm that a panel must reach to count as having sleeves, metres on a body 1.5 m large.
 const SLEEVE: f64 = 0.1;
-/// Height of seams along the arms above them before they are sewn, metres on a body 1.5 m large.
-const OVER_ARM: f64 = 0.02;
+/// Distance of cloth and seams from the skin round a limb before they are sewn, metres on a body 1.5 m large.
+pub const ROUND_LIMBS: f64 = 0.02;
 /// Largest distance by which the ring is lowered below its first height under the arms, metres on a body 1.5 m large.
 const LOWER: f64 = 0.2;
 /// Length of the longest path down from a shoulder, metres on a body 1.5 m large.
@@ -62,7 +61,7 @@ pub fn suggested(pattern: &Pattern, surface: &Surface, offset: f64) -> Marks {
             }
         }
         Anchor::Ring(panels) => {
-            let depth = UNDER_TOP * surface.scale();
+            let depth = RING_UNDER * surface.scale();
             let beside: f64 = besides(&cut, &panels, depth).sum();
             let sewn = if beside > 0.0 { all_sewn(&cut) } else { seams_among(&cut, &panels) };
             let lines: Vec<Line> = panels.iter().map(|p| Line::under_top(p, depth, &sewn)).collect();
@@ -132,7 +131,7 @@ pub fn stand(cut: &CutPattern, surface: &Surface, trunk: &Trunk, offset: f64) ->
             (!heights.is_empty()).then_some(stand)
         }
         Anchor::Ring(panels) => {
-            let depth = UNDER_TOP * surface.scale();
+            let depth = RING_UNDER * surface.scale();
             // Panels at the sides are not part of the ring here, but their seams are side seams of those that are.
             let sewn = all_sewn(cut);
             let lines: Vec<Line> = panels.iter().map(|p| Line::under_top(p, depth, &sewn)).collect();
@@ -172,7 +171,7 @@ fn over_arms<'a>(
 /// See [`Stand::short_of_arms`].
 fn short_of_arms(cut: &CutPattern, surface: &Surface, trunk: &Trunk, panels: &[Panel]) -> f64 {
     let (over, arms) = over_arms(cut, surface, trunk, panels);
-    let room = OVER_ARM * surface.scale();
+    let room = ROUND_LIMBS * surface.scale();
     let places = over.iter().flat_map(|o| o.points.iter().map(|(_, p)| *p - DVec3::Y * o.panel.lifted));
     let short = |p: DVec3| Some(on_shoulder(surface, trunk, p.x)?.y + room - p.y);
     places.filter(|p| p.x.abs() > arms).filter_map(short).fold(f64::NEG_INFINITY, f64::max)
@@ -258,7 +257,7 @@ fn hung(
             .collect();
         (!heights.is_empty()).then(|| heights.iter().sum::<f64>() / heights.len() as f64)
     };
-    let margin = UNDER_ARM * surface.scale();
+    let margin = RING_UNDER * surface.scale();
     let sides = sides(pattern, panels);
     let highest = trunk.armpit? - margin;
     let lowest = (highest - LOWER * surface.scale()).max(trunk.crotch);
