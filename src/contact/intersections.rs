@@ -8,11 +8,6 @@ use crate::contact::pockets::pockets;
 use crate::geometry::crossings::self_crossings;
 use crate::geometry::mesh::TriMesh;
 
-/// Smallest sine of the angle between an edge and the triangle that it intersects; smaller ones are raised to it.
-const LEAST_SLOPE: f64 = 0.1;
-/// Factors by which the rings of vertices round deep ones take over the direction of the ring before.
-const ALONG: [f64; 3] = [0.9, 0.7, 0.4];
-
 /// The self-intersections of a garment.
 #[derive(Clone, Debug)]
 pub struct Intersections {
@@ -64,8 +59,9 @@ impl Intersections {
                 // Along the intersection of the two triangles, into the triangle beside the edge.
                 let line = normal.cross(along.cross(inward)).normalize_or_zero();
                 let line = if line.dot(inward) < 0.0 { -line } else { line };
+                // The sine of the angle between edge and triangle. The way out of a triangle that it hardly meets would be long.
                 let slope = along.dot(normal);
-                let slope = if slope.abs() < LEAST_SLOPE { LEAST_SLOPE.copysign(slope) } else { slope };
+                let slope = slope.abs().max(0.1).copysign(slope);
                 way += line - normal * (2.0 * line.dot(along) / slope);
             }
             let way = way.clamp_length_max(1.0);
@@ -93,7 +89,8 @@ impl Intersections {
         }
         let mut drawn: Vec<bool> = deep.iter().map(|&more| more != 0).collect();
         let any = drawn.contains(&true);
-        for share in ALONG {
+        // The rings of vertices round the deep ones take over the direction of the ring before, each less.
+        for share in [0.9, 0.7, 0.4] {
             draw_along(garment, &mut ways, &mut drawn, share);
         }
         (ways, any)

@@ -15,8 +15,6 @@ use crate::geometry::borders::border_loops;
 use crate::geometry::mesh::TriMesh;
 use crate::geometry::winding::Winding;
 
-/// Number of sample points for the usual winding number of a part.
-const ASKED: usize = 15;
 /// Tolerance of the winding number beyond its possible range.
 const CERTAIN: f64 = 0.03;
 
@@ -100,10 +98,11 @@ fn layers(garment: &Garment) -> Vec<u8> {
     layers
 }
 
-/// The usual winding number just on one side of the cloth: the median over sample points, rounded down.
+/// The usual winding number just on one side of the cloth: the median over at most fifteen of its points,
+/// rounded down: most of them are not in a pocket.
 fn usual(winding: &Winding<'_>, mesh: &TriMesh, chosen: impl Fn(u32) -> bool) -> f64 {
     let own: Vec<u32> = (0..mesh.positions.len() as u32).filter(|&v| chosen(v)).collect();
-    let count = own.len().min(ASKED);
+    let count = own.len().min(15);
     let at = |k: usize| winding.at(mesh.positions[own[k * own.len() / count] as usize]).floor();
     let mut found: Vec<f64> = (0..count).map(at).collect();
     found.sort_by(f64::total_cmp);

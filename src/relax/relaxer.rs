@@ -32,12 +32,8 @@ const MOST_HELD: f64 = 50.0;
 pub const LEAST_HEIGHT: f64 = 0.5;
 /// Distance from the skin within which cloth is tested for being on the wrong side, metres on a body 1.5 m large.
 const WRONG_SIDE_REACH: f64 = 0.015;
-/// Number of faults for which one self-intersection of the cloth counts: finer meshes seldom repair it.
-const CROSSINGS_WEIGH: usize = 20;
 /// Factor on the directions that separate layers, per parting: they fade out, which keeps layers apart for a while.
 const STILL_PARTING: f64 = 0.9;
-/// Length of a separating direction, in units, below which it is dropped.
-const LEAST_PARTING: f64 = 0.02;
 
 /// Everything that relaxation of one garment on one body needs.
 #[derive(Clone)]
@@ -558,9 +554,10 @@ impl Relaxer {
         let laid = |e: &[u32; 2]| e.iter().all(|&v| drawn.mapped[v as usize]);
         let edges: Vec<[u32; 2]> = garment.adjacency.edges.iter().copied().filter(laid).collect();
         let body = &self.surface.mesh;
+        // A self-intersection counts for twenty: finer meshes seldom repair it.
         meetings(&drawn.positions, &edges, body, &body.tree()).len()
             + self.wrong_faces(state).iter().flatten().count()
-            + Intersections::new(&self.garment, state).places.len() * CROSSINGS_WEIGH
+            + 20 * Intersections::new(&self.garment, state).places.len()
     }
 
     /// Adds directions that separate intersecting layers. Returns the number of self-intersections.
@@ -577,8 +574,8 @@ impl Relaxer {
     pub fn ease_parting(&mut self) {
         for parted in &mut self.parted {
             let eased = *parted * STILL_PARTING;
-            *parted =
-                if eased.length_squared() > LEAST_PARTING * LEAST_PARTING { eased } else { DVec3::ZERO };
+            // It is dropped below a fiftieth of a unit, which a unit takes some forty times to fade to.
+            *parted = if eased.length_squared() > 0.02 * 0.02 { eased } else { DVec3::ZERO };
         }
     }
 

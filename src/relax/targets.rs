@@ -6,8 +6,6 @@ use glam::DVec3;
 use crate::contact::{Plane, Tracker};
 use crate::relax::step::{GlobalStep, STEP_OUT};
 
-/// Weight of the present position, which keeps the matrix regular where nothing holds the cloth.
-const PROXIMAL_WEIGHT: f64 = 1e-4;
 /// Fraction of the last sliding move that is added to the target: it counters the contact weight, which resists sliding.
 const SLIDE_MOMENTUM: f64 = 0.9;
 /// Fraction of the last sliding move that is added to the target in steps with gravity and friction.
@@ -53,7 +51,8 @@ impl Targets<'_> {
     pub fn of(&self, v: usize, x: DVec3, push: &mut f64, force: &mut DVec3) -> (f64, DVec3) {
         let away = STEP_OUT * self.scale;
         let contact = self.step.contact;
-        let mut weight = PROXIMAL_WEIGHT;
+        // Of the present position: it keeps the matrix regular where nothing holds the cloth.
+        let mut weight = 1e-4;
         let mut pull = DVec3::ZERO;
         let mut want = |w: f64, target: DVec3| {
             weight += w;

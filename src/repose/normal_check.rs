@@ -2,11 +2,6 @@
 
 use crate::cloth::ClothState;
 
-/// Checks in a row without fewer folds after which the folds are taken to stay.
-const AT_FOLDS: usize = 2;
-/// An unfolded state is preferred even if its strain is larger by this share.
-const WORTH: f64 = 0.1;
-
 /// What the checks found.
 #[derive(Clone, Debug)]
 pub(super) struct Looks {
@@ -36,16 +31,17 @@ impl Looks {
         }
     }
 
-    /// Whether there are no folds, or they are taken to stay.
+    /// Whether there are no folds, or they are taken to stay, as two checks in a row found no fewer.
     pub fn is_unfolded(&self) -> bool {
-        self.fewest == 0 || self.since_fewer >= AT_FOLDS
+        self.fewest == 0 || self.since_fewer >= 2
     }
 
-    /// If the cloth has gained folds, restores the best state without them, unless that was strained much more.
+    /// If the cloth has gained folds, restores the best state without them, unless that was strained more by over a
+    /// tenth.
     pub fn give_back(self, state: &mut ClothState) {
         if let Some((unfolded, strain)) = self.unfolded
             && self.folds > self.bound
-            && strain <= self.strain * (1.0 + WORTH)
+            && strain <= self.strain * 1.1
         {
             *state = unfolded;
         }

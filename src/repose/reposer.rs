@@ -25,8 +25,6 @@ const PACES: [Acceleration; 3] = Acceleration::longer(1.7);
 /// Global steps between two looks at what they reached: the strain and folds of the cloth, and whether its layers intersect, which are
 /// then separated.
 pub(super) const STEPS_PER_LOOK: usize = 4;
-/// Most attempts to move a vertex out of the body at the end: after a move, other skin may be the nearest.
-const SENDS: usize = 4;
 
 /// A dressed garment bound to its body.
 #[derive(Clone, Debug)]
@@ -218,7 +216,8 @@ impl Reposer {
             if self.relaxer.is_clear(v as u32, *p) {
                 return false;
             }
-            for _ in 0..SENDS {
+            // After a move other skin may be the nearest: it is tried again, four times in all.
+            for _ in 0..4 {
                 match near(*p) {
                     Some(skin) if mapped && skin.distance < 0.0 => *p = skin.point + skin.normal * least,
                     _ => return false,

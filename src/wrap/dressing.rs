@@ -20,7 +20,7 @@ use crate::wrap::limbs::Limbs;
 use crate::wrap::order::Order;
 use crate::wrap::plan::{PLAIN, PLANS, Plan};
 use crate::wrap::roots::{PairStretch, Root, roots};
-use crate::wrap::settling::{SETTLE_STEPS, Settling};
+use crate::wrap::settling::Settling;
 
 /// Number of settling steps between two separations of intersecting layers. Flipped cloth, and cloth on the wrong side, is turned over
 /// only after as many: by then it is roughly in place.
@@ -275,9 +275,7 @@ impl Dressing {
         let grown = self.mapped as f64 / self.to_map.max(1) as f64;
         match self.stage {
             Stage::Grow { .. } | Stage::BetweenTiers { .. } => 0.6 * grown,
-            Stage::Settle(Settling { done, .. }) => {
-                0.6 + 0.4 * (done as f64 / (2 * SETTLE_STEPS) as f64).min(1.0)
-            }
+            Stage::Settle(settling) => 0.6 + 0.4 * settling.progress(),
             Stage::Rest => 1.0,
         }
     }
@@ -345,7 +343,7 @@ impl Dressing {
     /// Lets placed cloth settle again.
     pub fn settle_again(&mut self) {
         if self.relaxer().is_some() && self.mapped > 0 {
-            self.stage = Stage::Settle(Settling::from(SETTLE_STEPS, self.draft));
+            self.stage = Stage::Settle(Settling::with_gravity(self.draft));
         }
     }
 
@@ -377,7 +375,7 @@ impl Dressing {
             self.contact = coarse.dressing.contact;
             self.relaxer.take_over(&coarse.dressing.relaxer, &coarse.carry, ratio);
             self.relaxer.fix(self.pins.iter().copied());
-            self.stage = Stage::Settle(Settling::from(SETTLE_STEPS, self.draft));
+            self.stage = Stage::Settle(Settling::with_gravity(self.draft));
         }
     }
 
@@ -393,7 +391,7 @@ impl Dressing {
                     self.relaxer.fix(self.pins.iter().copied());
                 }
                 self.stage = if last {
-                    Stage::Settle(Settling::from(0, self.draft))
+                    Stage::Settle(Settling::new(self.draft))
                 } else {
                     Stage::BetweenTiers { left: self.way().tier_steps }
                 };

@@ -1,11 +1,10 @@
 //! Settling: when the cloth counts as at rest, and how often it is repaired then.
 
-/// Number of global steps in the first part of settling, without gravity.
-pub(super) const SETTLE_STEPS: usize = 80;
-
 /// When settling cloth counts as at rest, and how long it may take.
 #[derive(Clone, Copy, Debug)]
 struct Limits {
+    /// Steps of the first part, without gravity.
+    light_steps: usize,
     /// Most steps: cloth that still moves then jitters in a fold.
     steps: usize,
     /// Most repairs of resting cloth: raising it off the body that it cuts, moving it to its own side.
@@ -25,6 +24,7 @@ struct Limits {
 
 /// For the mesh that is asked for.
 const FINE: Limits = Limits {
+    light_steps: 80,
     steps: 400,
     mends: 12,
     steps_per_mend: 25,
@@ -34,7 +34,7 @@ const FINE: Limits = Limits {
     least_energy: 1e-8,
 };
 /// For a coarse mesh, which only has to be roughly in place: as long with gravity as without.
-const DRAFT: Limits = Limits { steps: 2 * SETTLE_STEPS, mends: 2, ..FINE };
+const DRAFT: Limits = Limits { steps: 2 * FINE.light_steps, mends: 2, ..FINE };
 
 /// State of settling.
 #[derive(Clone, Copy, Debug)]
@@ -57,16 +57,27 @@ pub(super) struct Settling {
 }
 
 impl Settling {
-    /// Settling from step `done` on. `draft`: a finer mesh continues from the result.
-    pub fn from(done: usize, draft: bool) -> Self {
+    /// Settling of cloth that has just grown. `draft`: a finer mesh continues from the result.
+    pub fn new(draft: bool) -> Self {
         let limits = if draft { DRAFT } else { FINE };
         let until = limits.steps;
-        Self { done, crossed: true, limits, quiet: 0, mends: 0, until, energy: 0.0, creeps: false }
+        Self { done: 0, crossed: true, limits, quiet: 0, mends: 0, until, energy: 0.0, creeps: false }
+    }
+
+    /// Settling of cloth that is roughly in place, with gravity from the beginning.
+    pub fn with_gravity(draft: bool) -> Self {
+        let settling = Self::new(draft);
+        Self { done: settling.limits.light_steps, ..settling }
+    }
+
+    /// Progress, 0..=1, by what it takes most often: as long with gravity as without.
+    pub fn progress(&self) -> f64 {
+        (self.done as f64 / (2 * self.limits.light_steps) as f64).min(1.0)
     }
 
     /// Whether settling is in its first part, without gravity.
     pub fn is_first(&self) -> bool {
-        self.done < SETTLE_STEPS
+        self.done < self.limits.light_steps
     }
 
     /// Records a step in which the largest move was `moved` edge lengths. Returns whether the cloth is at rest now.

@@ -11,8 +11,6 @@ use rayon::prelude::*;
 use crate::body::Surface;
 use crate::drape::garment::SEARCH_STEP;
 
-/// Directions round the seam that are tried for the waypoints.
-const SIDES: u32 = 16;
 /// Most steps of [`SEARCH_STEP`]: a line that is deeper in the body than this was not caught by the placement.
 const MOST_STEPS: u32 = 20;
 /// Deepest point of a line inside the body, as a share of the length inside, up to which the body only bulges into it. Through
@@ -73,15 +71,17 @@ pub fn over(surface: &Surface, threads: &[[DVec3; 2]]) -> Vec<Option<DVec3>> {
     let along: DVec3 = of_caught.iter().map(|[a, b]| *b - *a).sum();
     let Some(along) = along.try_normalize() else { return vec![None; threads.len()] };
     let (u, v) = along.any_orthonormal_pair();
+    // Directions round the seam that are tried for the waypoints.
+    let sides = 16;
     let side = |k: u32| {
-        let (sin, cos) = (std::f64::consts::TAU * f64::from(k) / f64::from(SIDES)).sin_cos();
+        let (sin, cos) = (std::f64::consts::TAU * f64::from(k) / f64::from(sides)).sin_cos();
         u * cos + v * sin
     };
     let steps = |way: DVec3| -> u32 {
         let of_thread = |(&ends, &caught)| steps_to(surface, ends, caught, way).unwrap_or(2 * MOST_STEPS);
         threads.par_iter().zip(&caught).map(of_thread).sum()
     };
-    let Some(way) = (0..SIDES).map(side).min_by_key(|&way| steps(way)) else {
+    let Some(way) = (0..sides).map(side).min_by_key(|&way| steps(way)) else {
         return vec![None; threads.len()];
     };
     let place = |(&ends, &caught): (&[DVec3; 2], &bool)| {
