@@ -8,7 +8,7 @@ use crate::body::Surface;
 use crate::cloth::refine::Refined;
 use crate::cloth::{ClothState, Counters, Garment, Skip, Skips};
 use crate::contact::BodyOverlaps;
-use crate::contact::tracker::AHEAD;
+use crate::contact::tracker::Lengths;
 use crate::geometry::parallel::LEAST_SHARE;
 
 /// Share of the offset that the interiors of faces and edges must keep from the skin where the vertices keep all of it.
@@ -97,7 +97,7 @@ impl Faces {
         }
         self.age(lying);
         let limit = clearance * LOOK_INTO;
-        let ahead = AHEAD * lying.surface.scale();
+        let ahead = Lengths::on(lying.surface).ahead;
         let mut asked = vec![0u32; self.known.len()];
         let mut lacking: Vec<f64> = self
             .known
@@ -134,8 +134,7 @@ impl Faces {
     /// For each face that is on the wrong side of the skin next to it, the direction off that skin; None for the others.
     pub fn wrong(&mut self, lying: Lying<'_>, counters: &mut Counters) -> Vec<Option<DVec3>> {
         self.age(lying);
-        let scale = lying.surface.scale();
-        let (reach, ahead) = (WRONG_REACH * scale, AHEAD * scale);
+        let (reach, ahead) = (WRONG_REACH * lying.surface.scale(), Lengths::on(lying.surface).ahead);
         let mut asked = vec![0u32; self.known.len()];
         let wrong = self
             .known

@@ -16,7 +16,7 @@ use crate::cloth::refine::{DependentVertex, Refined, refine};
 use crate::cloth::{ClothState, Counters, Garment, Skip, Skips};
 use crate::contact::Tracker;
 use crate::contact::faces::FACE_CLEARANCE;
-use crate::contact::tracker::SIGHT;
+use crate::contact::tracker::Lengths;
 use crate::geometry::parallel::LEAST_SHARE;
 
 /// Number of consecutive checks in which a split edge must be clear of the body before it is joined again.
@@ -62,7 +62,7 @@ impl Splits {
         let mut counters = Counters::default();
         let mut tracker = Tracker::new(garment.vertex_count);
         let ground = Ground { surface, offset: offset * surface.scale(), skips: Skips::default() };
-        let reach = (SIGHT * surface.scale()).max(garment.mean_edge());
+        let reach = Lengths::on(surface).sight.max(garment.mean_edge());
         tracker.update(surface, state, reach, ground.skips, &mut counters);
         let all: Vec<u32> = (0..garment.adjacency.edges.len() as u32).collect();
         let found = splits.split(

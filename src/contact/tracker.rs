@@ -15,19 +15,39 @@ use crate::cloth::{ClothState, Counters, Skip, Skips};
 use crate::contact::BodyOverlaps;
 use crate::geometry::adjacency::NONE;
 
-/// Distance that a vertex may move with its track plane kept, metres on a body 1.5 m large.
-const PLANE_REUSE: f64 = 0.0002;
-/// Distance from the skin up to which the body is searched for exactly, and within which the edges of resting cloth may cut it, metres
-/// on a body 1.5 m large.
-pub(super) const SIGHT: f64 = 0.03;
-/// Motion since the last query below which a vertex counts as slow, metres on a body 1.5 m large. For slow vertices
-/// it is worth computing how far they may move before another part of the body can be nearest.
-const SLOW: f64 = 0.0005;
-/// Margin well above rounding errors, metres on a body 1.5 m large.
-const CERTAIN: f64 = 1e-6;
-/// Motion over which what is found of the body is meant to stay valid: it is searched that much farther. Metres on a body 1.5 m
-/// large.
-pub(super) const AHEAD: f64 = 0.002;
+/// Lengths that decide what is looked for, and where, metres.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Lengths {
+    /// Distance from the skin up to which the body is searched for exactly, and within which the edges of resting cloth may cut it.
+    pub sight: f64,
+    /// Distance that a vertex may move with its track plane kept.
+    kept: f64,
+    /// Motion since the last query below which a vertex counts as slow. For slow vertices it is worth computing how far they may
+    /// move before another part of the body can be nearest.
+    slow: f64,
+    /// Margin well above rounding errors.
+    certain: f64,
+    /// Motion over which what is found of the body is meant to stay valid: it is searched that much farther.
+    pub ahead: f64,
+}
+
+/// On a body 1.5 m large.
+const LENGTHS: Lengths = Lengths { sight: 0.03, kept: 0.0002, slow: 0.0005, certain: 1e-6, ahead: 0.002 };
+
+impl Lengths {
+    /// The lengths on the body of `surface`.
+    pub fn on(surface: &Surface) -> Self {
+        let scale = surface.scale();
+        let Self { sight, kept, slow, certain, ahead } = LENGTHS;
+        Self {
+            sight: sight * scale,
+            kept: kept * scale,
+            slow: slow * scale,
+            certain: certain * scale,
+            ahead: ahead * scale,
+        }
+    }
+}
 
 /// The tangent plane of the body near a vertex.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -193,7 +213,7 @@ fn work(effort: Effort) -> [u64; 3] {
 struct Ask<'a> {
     surface: &'a Surface,
     reach: f64,
-    scale: f64,
+    lengths: Lengths,
     skips: Skips,
     walks: bool,
     apart: Option<&'a BodyOverlaps>,
@@ -207,7 +227,7 @@ impl<'a> Ask<'a> {
         walks: bool,
         apart: Option<&'a BodyOverlaps>,
     ) -> Self {
-        Self { surface, reach, scale: surface.scale(), skips, walks, apart }
+        Self { surface, reach, lengths: Lengths::on(surface), skips, walks, apart }
     }
 
     /// Whether `triangle` exists on this body and vertex `v` does not ignore it.
@@ -225,18 +245,18 @@ impl<'a> Ask<'a> {
                     return Effort::Nothing;
                 }
                 // The vertex was outside and cannot have passed through the whole body: it need not search farther than this.
-                SIGHT * self.scale
+                self.lengths.sight
             }
             Track::Found { slack: None, plane, .. } if !self.walks => {
                 if plane.height(p) > 0.0 {
-                    SIGHT * self.scale
+                    self.lengths.sight
                 } else {
                     f64::INFINITY
                 }
             }
             Track::Found { at, plane, triangle, slack, least } => {
                 let moved = (p - at).length();
-                let kept = allow(Skip::Planes) && moved < PLANE_REUSE * self.scale;
+                let kept = allow(Skip::Planes) && moved < self.lengths.kept;
                 let clear = allow(Skip::Certificates) && plane.height(at) - moved > self.reach;
                 if kept || clear {
                     return Effort::Nothing;
@@ -254,16 +274,16 @@ impl<'a> Ask<'a> {
                     *track = found(p, self.surface.nearest_round(p, triangle), left, triangle);
                     return Effort::Walk;
                 }
-                slow = moved < SLOW * self.scale;
+                slow = moved < self.lengths.slow;
                 // Not farther than it can have moved, and no farther than for a Clear track.
                 let height = plane.height(at);
-                let most = height.abs() + moved + CERTAIN * self.scale;
-                let most = if height > 0.0 { most.min(SIGHT * self.scale) } else { most };
-                most.min(self.surface.distance_to(p, triangle) + CERTAIN * self.scale)
+                let most = height.abs() + moved + self.lengths.certain;
+                let most = if height > 0.0 { most.min(self.lengths.sight) } else { most };
+                most.min(self.surface.distance_to(p, triangle) + self.lengths.certain)
             }
             // In another pose of the same body the part that was near still is.
             Track::Unknown { triangle } if self.is_known(v, triangle) => {
-                self.surface.distance_to(p, triangle) + CERTAIN * self.scale
+                self.surface.distance_to(p, triangle) + self.lengths.certain
             }
             Track::Unknown { .. } => f64::INFINITY,
         };
@@ -274,7 +294,7 @@ impl<'a> Ask<'a> {
             return Effort::Query;
         };
         // A vertex comes nearer to the next nearest part by what it goes away from the nearest.
-        let most_gap = 2.0 * AHEAD * self.scale;
+        let most_gap = 2.0 * self.lengths.ahead;
         let gap = match slow && allow(Skip::Triangles) {
             true => self.surface.gap_round(p, n.triangle, n.distance.abs(), most_gap),
             false => 0.0,

@@ -13,18 +13,22 @@ use crate::pattern::{CutPattern, EdgeRef, Pattern, SpacePose};
 use crate::place::limbs::{Part, limbs};
 use crate::wrap::{RUNS_ALONG, Stand, stand};
 
-/// Distance from where it belongs within which a garment is left, metres on a body 1.5 m large.
-const NEAR: f64 = 0.06;
-/// Distance from where it belongs within which a garment is left, if its sleeves have to be turned; metres on a body
-/// 1.5 m large.
-const EXACT: f64 = 0.01;
-/// Distance from where it would rest within which a garment held by a ring round the trunk is left, metres on a body
-/// 1.5 m large: it slides, and may be meant to sit higher or lower.
-const RING_NEAR: f64 = 0.15;
+/// How near to where it belongs something is left as it is; distances in metres on a body 1.5 m large.
+struct Near {
+    /// A garment.
+    garment: f64,
+    /// A garment that hangs from the shoulders and whose sleeves have to be turned.
+    with_turned_sleeves: f64,
+    /// A garment held by a ring round the trunk, from where it would rest: it slides, and may be meant to sit higher or lower.
+    ring: f64,
+    /// A sleeve: angle to its arm, radians.
+    sleeve: f64,
+}
+
+const NEAR: Near = Near { garment: 0.06, with_turned_sleeves: 0.01, ring: 0.15, sleeve: 0.3 };
+
 /// Largest distance by which a garment cut in one with its sleeves is raised for its arms, metres on a body 1.5 m large.
 const RAISED: f64 = 0.1;
-/// Angle between a sleeve and its arm within which the sleeve is left, radians.
-const ALONG: f64 = 0.3;
 /// Sine of the angle of an arm to the frontal plane above which it counts as stretched to the front or back.
 const FORWARD: f64 = 0.45;
 /// Distance from the middle beyond which pieces of an arm must be wholly, as a fraction of the trunk's half breadth.
@@ -68,11 +72,11 @@ pub fn onto(pattern: &Pattern, surface: &Surface, bones: &[Bone], offset: f64) -
         let arm = *arms.iter().find(|limb| limb.part == Part::Arm { left })?;
         let group = sleeve(&cut, &trunk, poses, left)?;
         let goes = towards(group.along, arm.along());
-        (group.along.angle_between(goes) > ALONG).then_some((arm, group, goes))
+        (group.along.angle_between(goes) > NEAR.sleeve).then_some((arm, group, goes))
     };
     // If sleeves are turned, there is less room for a garment that is too low.
     let is_other_pose = [true, false].into_iter().any(|left| turned(&poses, left).is_some());
-    let near = if is_other_pose { EXACT } else { NEAR };
+    let near = if is_other_pose { NEAR.with_turned_sleeves } else { NEAR.garment };
     let by = stand(&cut, surface, &trunk, offset)
         .map_or(DVec3::ZERO, |found| shift(found, waist(&trunk), surface.scale(), near));
     if by != DVec3::ZERO {
@@ -127,7 +131,7 @@ fn towards(along: DVec3, arm: DVec3) -> DVec3 {
 /// shoulders may be `hung_near` from them, metres on a body 1.5 m large.
 fn shift(stand: Stand, waist: DVec3, scale: f64, hung_near: f64) -> DVec3 {
     let Stand { placed, body, bounds, hangs, short_of_arms } = stand;
-    let near = NEAR * scale;
+    let near = NEAR.garment * scale;
     let far = |by: f64| if by.abs() > near { by } else { 0.0 };
     // Sideways the garment stays where the waist is within the middle half of its extent, or where it has no extent.
     let sideways = |axis: usize| {
@@ -137,7 +141,7 @@ fn shift(stand: Stand, waist: DVec3, scale: f64, hung_near: f64) -> DVec3 {
         if is_round { far(waist[axis] - middle) } else { 0.0 }
     };
     let up = body - placed;
-    let stays = up.abs() <= scale * if hangs { hung_near } else { RING_NEAR };
+    let stays = up.abs() <= scale * if hangs { hung_near } else { NEAR.ring };
     let up = if stays { 0.0 } else { up };
     // Sewn with the arms underneath, the garment falls on to the shoulders.
     let up = up.max(short_of_arms.min(up + RAISED * scale));

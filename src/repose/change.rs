@@ -13,17 +13,23 @@ use crate::repose::normal_check::Looks;
 use crate::repose::reposer::{Reposer, STEPS_PER_LOOK};
 use crate::repose::settings::{Outcome, ReposeSettings};
 
-/// Strain (99th percentile) up to which conforming alone counts as exact, provided that it left no vertex inside the body.
-const EXACT: f64 = 1e-6;
-/// Strain (99th percentile) up to which the cloth goes to the new pose directly. More is resolved through intermediate poses.
-const AT_ONCE: f64 = 0.15;
+/// Strains (99th percentile) that decide what is done next.
+struct Strains {
+    /// Up to which conforming alone counts as exact, provided that it left no vertex inside the body.
+    exact: f64,
+    /// Up to which strain limiting, edge by edge, can do the rest.
+    spreadable: f64,
+    /// Above which the cloth is too tight for strain limiting: no other edges can take it up.
+    too_tight: f64,
+    /// Up to which the cloth goes to the new pose directly. More is resolved through intermediate poses.
+    at_once: f64,
+}
+
+const STRAINS: Strains = Strains { exact: 1e-6, spreadable: 0.03, too_tight: 0.05, at_once: 0.15 };
+
 /// Global steps in which what changed in one place takes effect round it: they spread strain over enough cloth for strain limiting
 /// to do the rest, and follow each repair.
 const FEW_STEPS: usize = 2 * STEPS_PER_LOOK;
-/// Strain (99th percentile) up to which strain limiting, edge by edge, can do the rest.
-const SPREADABLE: f64 = 0.03;
-/// Strain (99th percentile) above which the cloth is too tight for strain limiting: no other edges can take it up.
-const TOO_TIGHT: f64 = 0.05;
 /// Cost of conforming, in global steps.
 const COST_OF_CARRYING: usize = 8;
 /// Cost of one round of strain limiting, in global steps.
@@ -178,7 +184,7 @@ impl Change {
             return COST_OF_CARRYING;
         }
         self.outcome.conformed_p99 = reposer.lengths.p99(&self.state);
-        if self.outcome.conformed_p99 > EXACT {
+        if self.outcome.conformed_p99 > STRAINS.exact {
             reposer.join(&mut carried);
             carried.iter().zip(&mut self.state.positions).for_each(|((place, _), p)| *p = *place);
             self.outcome.joined_p99 = reposer.lengths.p99(&self.state);
@@ -197,10 +203,10 @@ impl Change {
             }
         }
         self.outcome.excess_p99 = reposer.lengths.p99(&self.state);
-        if self.outcome.conformed_inside == 0 && self.outcome.excess_p99 <= EXACT {
+        if self.outcome.conformed_inside == 0 && self.outcome.excess_p99 <= STRAINS.exact {
             return COST_OF_CARRYING;
         }
-        self.at_once = self.outcome.joined_p99 <= AT_ONCE || self.care.most_substeps == 0;
+        self.at_once = self.outcome.joined_p99 <= STRAINS.at_once || self.care.most_substeps == 0;
         self.stage = match self.at_once {
             true => Stage::control(reposer, FEW_STEPS.min(self.care.most_steps)),
             false => Stage::SetOut,
@@ -228,7 +234,7 @@ impl Change {
             looks.see(&self.state, reposer.folds.count(&self.state), strain);
             // Folds do not come apart by strain limiting; where cloth has to fold they stay.
             let spreads = until >= FEW_STEPS && looks.is_unfolded();
-            well |= strain <= if spreads { SPREADABLE } else { self.care.excess };
+            well |= strain <= if spreads { STRAINS.spreadable } else { self.care.excess };
         }
         self.stage = match well {
             true => {
@@ -263,7 +269,7 @@ impl Change {
         self.stage = Stage::Finish;
         let Some(mut spreading) = spreading else {
             let was = reposer.lengths.p99(&self.state);
-            if was <= TOO_TIGHT {
+            if was <= STRAINS.too_tight {
                 let (before, left) = (self.state.clone(), self.care.passes);
                 let live = self.care.mends == 0 && was > self.care.excess;
                 let rounds = if live { self.care.rounds } else { 0 };
@@ -341,7 +347,7 @@ impl Change {
             self.outcome.steps += 1;
         }
         // Three looks in each intermediate pose: what is left is taken on to the next.
-        if *done < 3 * STEPS_PER_LOOK && reposer.lengths.p99(&self.state) > SPREADABLE {
+        if *done < 3 * STEPS_PER_LOOK && reposer.lengths.p99(&self.state) > STRAINS.spreadable {
             self.stage = Stage::Pass(passing);
             return STEPS_PER_LOOK;
         }
