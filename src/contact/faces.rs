@@ -13,8 +13,6 @@ use crate::geometry::parallel::LEAST_SHARE;
 
 /// Share of the offset that the interiors of faces and edges must keep from the skin where the vertices keep all of it.
 pub const FACE_CLEARANCE: f64 = 0.25;
-/// Depth, in clearances, down to which a face is found in the body; its corners are above the skin.
-const LOOK_INTO: f64 = 5.0;
 /// Distance from the skin within which faces are tested for being on the wrong side, metres on a body 1.5 m large.
 const WRONG_REACH: f64 = 0.02;
 /// Cosine between the normals of face and skin below which the face is on the wrong side.
@@ -96,7 +94,8 @@ impl Faces {
             self.clearance = clearance;
         }
         self.age(lying);
-        let limit = clearance * LOOK_INTO;
+        // Depth down to which a face is found in the body; its corners are above the skin.
+        let limit = clearance * 5.0;
         let ahead = Lengths::on(lying.surface).ahead;
         let mut asked = vec![0u32; self.known.len()];
         let mut lacking: Vec<f64> = self

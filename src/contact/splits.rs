@@ -19,11 +19,6 @@ use crate::contact::faces::FACE_CLEARANCE;
 use crate::contact::tracker::Lengths;
 use crate::geometry::parallel::LEAST_SHARE;
 
-/// Number of consecutive checks in which a split edge must be clear of the body before it is joined again.
-const CLEAR_LOOKS: u8 = 10;
-/// Factor on the length of a split edge in the check whether it is clear of the body.
-const LONGER: f64 = 1.2;
-
 /// A body that cloth may cut, and the offset of the cloth.
 #[derive(Clone, Copy, Debug)]
 pub struct Ground<'a> {
@@ -133,7 +128,8 @@ impl Splits {
         found
     }
 
-    /// Joins edges that have been clear of the body for `CLEAR_LOOKS` checks.
+    /// Joins edges that have been clear of the body for ten checks in a row, even if they were a fifth longer: so that they are not split
+    /// again at once.
     pub fn join(
         &mut self,
         garment: &Garment,
@@ -148,9 +144,9 @@ impl Splits {
         let before = self.edges.len();
         self.edges.retain(|&e, clear| {
             let edge = Edge::new(garment.adjacency.edges[e as usize], state, tracker);
-            let near = edge.is_some_and(|edge| edge.is_near(ground, LONGER));
+            let near = edge.is_some_and(|edge| edge.is_near(ground, 1.2));
             *clear = if near { 0 } else { *clear + 1 };
-            *clear < CLEAR_LOOKS
+            *clear < 10
         });
         let joined = before - self.edges.len();
         counters.joined_edges += joined as u64;

@@ -13,20 +13,6 @@ use crate::geometry::borders::border_loops;
 use crate::geometry::mesh::TriMesh;
 use crate::place::limbs::{Limb, Part, limbs};
 
-/// Distance of the cuff's middle from the shoulder below which there is no sleeve, metres on a body 1.5 m large.
-const LONG: f64 = 0.04;
-/// Distance of the cuff's middle from the shoulder above which the opening is not a sleeve's, metres on a body 1.5 m large.
-const REACH: f64 = 0.75;
-/// Smallest cosine between a sleeve and its arm.
-const ASIDE: f64 = 0.4;
-/// Distance between skin and the edges of a sleeve that is enough to leave it, metres on a body 1.5 m large.
-const CLEAR: f64 = 0.015;
-/// Fractions of the cuff's distance from the shoulder: cloth nearer to the cuff than the first is turned wholly;
-/// beyond it the turn fades out over at least the second. See [`GENTLE`].
-const BENT: [f64; 2] = [0.5, 0.6];
-/// Smallest length over which the turn fades out, as a multiple of the cuff's path: over less, the cloth would be turned over.
-const GENTLE: f64 = 2.0;
-
 /// `places` (metres, one for each flat corner of `garment`) with sleeves led to the arms of the body. They are
 /// unchanged where the body does not look human, or where the arms run between the edges of the sleeves already, as legs do between
 /// those of trousers.
@@ -131,8 +117,10 @@ impl<'a> Arm<'a> {
         };
         let stands = |cuff: &Cuff<'_>| {
             let length = cuff.from.length();
-            let is_aside = cuff.from.dot(self.along) > ASIDE * length;
-            outward(cuff.from) > LONG * scale && length < REACH * scale && is_aside
+            // On a body 1.5 m large: at least 4 cm out from the shoulder, else there is no sleeve; nearer than 75 cm, else it is not a
+            // sleeve's; and roughly in the direction of the arm.
+            let is_aside = cuff.from.dot(self.along) > 0.4 * length;
+            outward(cuff.from) > 0.04 * scale && length < 0.75 * scale && is_aside
         };
         let placed = borders.iter().zip(points).filter(|(_, points)| !points.is_empty());
         let mut cuffs: Vec<Cuff<'b>> = placed.map(cuff).filter(stands).collect();
@@ -140,7 +128,7 @@ impl<'a> Arm<'a> {
         cuffs
     }
 
-    /// Whether the arm has room between the edges of `cuff` before it and those behind it.
+    /// Whether the arm has room between the edges of `cuff` before it and those behind it: 1.5 cm on a body 1.5 m large.
     fn runs_through(&self, cuff: &Cuff<'_>) -> bool {
         let Some(across) = upright(DVec3::Y - self.along * self.along.y).try_normalize() else { return true };
         let at = self.root + self.along * cuff.from.dot(self.along);
@@ -153,7 +141,7 @@ impl<'a> Arm<'a> {
         if before[0] > before[1] || behind[0] > behind[1] {
             return true;
         }
-        let clear = CLEAR * self.surface.scale();
+        let clear = 0.015 * self.surface.scale();
         let skin = |way: DVec3| self.surface.ray(at, way).map_or(0.0, |hit| hit.distance) + clear;
         before[0].max(behind[0]) <= -skin(-across) && skin(across) <= before[1].min(behind[1])
     }
@@ -164,8 +152,10 @@ impl<'a> Arm<'a> {
         let length = cuff.from.length();
         let angle = cuff.from.cross(self.along).z.atan2(cuff.from.dot(self.along));
         let turn = DQuat::from_rotation_z(angle);
-        let near = BENT[0] * length;
-        let over = length * BENT[1].max(GENTLE * angle.abs());
+        // The half nearer to the cuff is turned wholly. Over less than twice the cuff's path, the cloth would be turned over where
+        // the turn fades out.
+        let near = 0.5 * length;
+        let over = length * (2.0 * angle.abs()).max(0.6);
         for (place, corner) in places.iter_mut().zip(&garment.corners) {
             let t = (1.0 - (away[corner.vertex as usize] - near) / over).clamp(0.0, 1.0);
             let share = t * t * (3.0 - 2.0 * t);

@@ -13,8 +13,6 @@ use crate::wrap::ROUND_LIMBS;
 const BEFORE: f64 = 0.05;
 /// Largest protrusion of the body that flat pieces before and behind it are moved out for, metres on a body 1.5 m large.
 const STANDS_OUT: f64 = 0.25;
-/// Gap between the two sides of a piece that is rolled up, metres.
-const GAP: f64 = 0.01;
 /// Fraction of a limb's circumference above which a piece at the limb is rolled.
 const ROLLED: f64 = 0.55;
 
@@ -173,10 +171,10 @@ impl Frame {
     }
 }
 
-/// The placement `pose` rolled about its middle into a tube that just closes, its outer side out (paper B, "self-rolling").
+/// The placement `pose` rolled about its middle into a tube that just closes, to a gap of 1 cm, its outer side out (paper B, "self-rolling").
 pub fn rolled_up(piece: &Piece, pose: SpacePose) -> SpacePose {
     let Frame { up, left, right, centre, outer, .. } = Frame::new(piece);
-    let radius = ((right - left) + GAP) / std::f64::consts::TAU;
+    let radius = ((right - left) + 0.01) / std::f64::consts::TAU;
     SpacePose { roll: Some(Roll { centre, along: up, radius: radius * outer }), ..pose }
 }
 

@@ -25,9 +25,6 @@ use crate::relax::{Memory, RelaxSettings};
 /// Force by which touching cloth clings to the skin, in weights of the whole cloth, per unit of friction: four weights at the usual
 /// friction of 0.3 (ALGORITHMS.md 1: the friction step is twice the gravity step; contact is uneven).
 const CLING: f64 = 4.0 / 0.3;
-/// Largest ratio of the area of all cloth to that of touching cloth that the cling can hold: where less touches, the
-/// garment falls.
-const MOST_HELD: f64 = 50.0;
 /// Fraction of the offset that a vertex keeps above its track plane in every step.
 pub const LEAST_HEIGHT: f64 = 0.5;
 /// Distance from the skin within which cloth is tested for being on the wrong side, metres on a body 1.5 m large.
@@ -416,7 +413,8 @@ impl Relaxer {
             all += self.areas[v];
             touching += if self.touches(state, v) { self.areas[v] } else { 0.0 };
         }
-        let share = if touching > 0.0 { (all / touching).min(MOST_HELD) } else { 0.0 };
+        // Where less than a fiftieth touches, the garment falls.
+        let share = if touching > 0.0 { (all / touching).min(50.0) } else { 0.0 };
         let each = CLING * self.settings.gravity * share;
         self.cling.iter_mut().zip(&self.areas).for_each(|(cling, area)| *cling = area * each);
     }

@@ -19,8 +19,6 @@ use crate::repose::turns::{gradient, mean, triangle_turn, turns};
 
 /// Largest rotation of a part of the body between two poses, radians.
 const LARGEST_TURN: f64 = 0.2;
-/// Share of all vertices that may rotate further: fingers and toes are not covered by cloth.
-const LEFT_OUT: f64 = 0.05;
 
 /// Intermediate bodies between `from` and `to`: enough for a few degrees of rotation from one to the next, but at most `most`.
 /// They keep the position and orientation of `from`; the rigid motion of the whole body is left for the last step, where
@@ -36,7 +34,8 @@ pub(super) fn between(
         turns(from, to, &vertices).into_iter().map(|turn| turn.unwrap_or(DQuat::IDENTITY)).collect();
     let whole = mean(turned.iter().map(|&turn| (turn, 1.0)));
     let mut angles: Vec<f64> = turned.iter().map(|&turn| turn.angle_between(whole)).collect();
-    let at = ((angles.len() as f64 * (1.0 - LEFT_OUT)) as usize).min(angles.len().saturating_sub(1));
+    // One in twenty vertices may turn further: fingers and toes are not covered by cloth.
+    let at = ((angles.len() as f64 * (1.0 - 0.05)) as usize).min(angles.len().saturating_sub(1));
     if angles.is_empty() {
         return Vec::new();
     }

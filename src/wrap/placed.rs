@@ -9,8 +9,6 @@ use crate::geometry::polygon::contains;
 use crate::pattern::fineness::CHORDS;
 use crate::pattern::{CutPattern, EdgeRef, Piece, SpacePose};
 
-/// Cosine between a piece's outward normal and the front or back direction above which the piece may get marks.
-const FRONT_OR_BACK: f64 = 0.7;
 /// Distance from the plane between left and right within which a piece belongs to the trunk, metres.
 const AT_THE_MIDDLE: f64 = 0.08;
 /// Height below the highest within which something counts as uppermost too, metres.
@@ -20,8 +18,6 @@ pub const RUNS_ALONG: f64 = 0.6;
 
 /// Distance within which a point is on an edge, metres.
 pub const AT_AN_EDGE: f64 = 1e-3;
-/// Distance below an upper edge at which a point is tested to be on the piece, metres.
-const UNDER: f64 = 5e-3;
 /// Number of straight segments by which an edge is approximated.
 pub const EDGE_SAMPLES: u32 = 16;
 
@@ -38,8 +34,9 @@ pub(super) struct Panel<'a> {
 }
 
 impl Panel<'_> {
+    /// Whether it is more before or behind the body than beside it, turned away by less than about 45°; only such pieces may get marks.
     pub fn facing(&self) -> bool {
-        self.normal.z.abs() > FRONT_OR_BACK
+        self.normal.z.abs() > 0.7
     }
 
     pub fn is_front(&self) -> bool {
@@ -357,13 +354,15 @@ pub(super) fn over<'a>(pattern: &CutPattern, panels: &'a [Panel<'a>]) -> Vec<Ove
     found
 }
 
-/// Whether the panel is below the edge and not above it.
+/// Whether the panel is below the edge and not above it, by a point on either side: half a centimetre away, clear of the chords of the
+/// outline.
 fn is_upper(panel: &Panel, edge: usize) -> bool {
     let places = edge_places(panel, edge);
     let (Some(up), Some((middle, _))) = (panel.flat(DVec3::Y), places.get(places.len() / 2)) else {
         return false;
     };
-    contains(&panel.outline, *middle - up * UNDER) && !contains(&panel.outline, *middle + up * UNDER)
+    let aside = up * 5e-3;
+    contains(&panel.outline, *middle - aside) && !contains(&panel.outline, *middle + aside)
 }
 
 /// The edges of all seams among `panels`.

@@ -15,9 +15,6 @@ use crate::wrap::{BodyMark, ClothMark, ClothSide, Marks};
 /// Length below which a stroke counts as a point, metres on a body 1.5 m large.
 const POINT_MARK: f64 = 1e-4;
 
-/// Relative difference in length of a pair of marks above which it shows in the garment.
-const LARGE_STRETCH: f64 = 0.05;
-
 /// A root: a vertex placed by a mark.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Root {
@@ -46,9 +43,10 @@ impl PairStretch {
         if self.cloth > 0.0 { self.body / self.cloth - 1.0 } else { 0.0 }
     }
 
-    /// Whether the two strokes differ so much in length that one of them should be painted again.
+    /// Whether the two strokes differ so much in length, by over 5 %, that it shows in the garment and one of them should be painted
+    /// again.
     pub fn is_large(&self) -> bool {
-        self.stretch().abs() > LARGE_STRETCH
+        self.stretch().abs() > 0.05
     }
 }
 

@@ -35,8 +35,6 @@ const SLEEVE: f64 = 0.1;
 pub const ROUND_LIMBS: f64 = 0.02;
 /// Largest distance by which the ring is lowered below its first height under the arms, metres on a body 1.5 m large.
 const LOWER: f64 = 0.2;
-/// Length of the longest path down from a shoulder, metres on a body 1.5 m large.
-const LONGEST_DROP: f64 = 0.6;
 
 /// Marks for the pieces of `pattern` that have a placement; empty when none of them can anchor the garment.
 /// `offset` is the height of the cloth above the skin, metres.
@@ -295,7 +293,8 @@ fn on_shoulder(surface: &Surface, trunk: &Trunk, x: f64) -> Option<DVec3> {
 fn down_from_shoulder(surface: &Surface, trunk: &Trunk, x: f64, front: bool, offset: f64) -> Option<Way> {
     let ridge = on_shoulder(surface, trunk, x)?;
     let way = if front { DVec3::Z } else { DVec3::NEG_Z };
-    let longest = LONGEST_DROP * surface.scale();
+    // On a body 1.5 m large. Chosen by trial; it bounds how far under the shoulders a ring can come to be.
+    let longest = 0.6 * surface.scale();
     Some(march(surface, ridge, way, DVec3::Y, longest, offset, -2.0))
 }
 

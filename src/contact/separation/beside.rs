@@ -8,11 +8,6 @@ use crate::contact::separation::features;
 use crate::contact::separation::topology::{PlacedTriangle, SLACK, Topology};
 use crate::geometry::parallel::LEAST_SUMS;
 
-/// Cost of measuring a group anew, in costs of looking at one. Groups are measured when as much was spent on looks in vain.
-const MEASURE: u64 = 4;
-/// Largest factor on that, where measuring did not help.
-const MOST_PATIENCE: u64 = 64;
-
 /// Pairs of features of two neighbouring triangles: corners of the first against the second, or sides of both.
 #[derive(Clone, Debug)]
 pub(super) struct Group {
@@ -136,12 +131,13 @@ impl Beside {
         let all = (self.corners.len() + self.sides.len()) as u64;
         let first = *self.first.get_or_insert(if self.patience == 0 { 0 } else { looked });
         self.in_vain += looked.saturating_sub(first);
-        if self.in_vain < MEASURE * self.patience.max(1) * all || all == 0 {
+        // To measure a group anew costs four looks at it: groups are measured when as much was spent on looks in vain.
+        if self.in_vain < 4 * self.patience.max(1) * all || all == 0 {
             return;
         }
         // Measuring helps where more than half of the groups are passed over after it.
         let has_helped = self.patience == 0 || 2 * first < all;
-        self.patience = if has_helped { 1 } else { (2 * self.patience).min(MOST_PATIENCE) };
+        self.patience = if has_helped { 1 } else { (2 * self.patience).min(64) };
         (self.first, self.in_vain) = (None, 0);
         self.measured_at.clear();
         self.measured_at.extend_from_slice(x);

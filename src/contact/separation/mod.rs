@@ -40,8 +40,6 @@ use crate::geometry::parallel::{LEAST_SHARE, LEAST_SUMS};
 
 /// Smallest fraction of the room between two features of cloth that each of them gets, however small its reach is.
 const LEAST_ROOM: f64 = 0.2;
-/// Most sweeps of projections on to half-spaces, before a vertex is pulled straight back towards its anchor.
-const SWEEPS: usize = 3;
 
 /// A half-space: normal · x ≥ height.
 #[derive(Clone, Copy, Debug)]
@@ -464,7 +462,8 @@ impl Separation {
         }
         let planes = &self.planes[self.starts[v] as usize..self.starts[v + 1] as usize];
         let mut is_in = true;
-        for _ in 0..SWEEPS {
+        // Where three sweeps of projections do not end, the vertex is pulled straight back towards its anchor.
+        for _ in 0..3 {
             is_in = true;
             for plane in planes {
                 let depth = plane.height - plane.normal.dot(x);

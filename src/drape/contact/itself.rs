@@ -13,9 +13,6 @@ use crate::drape::sheet::Sheet;
 use crate::geometry::bvh::{Aabb, Bvh};
 use crate::geometry::parallel::LEAST_SHARE;
 
-/// Largest collision thickness as a share of the mean edge length: thicker, and neighbours in flat cloth would be in contact.
-const MOST_THICKNESS: f64 = 0.7;
-
 /// Factor on the expected displacements in a step, which widens the distance within which pairs are collected.
 const LOOK_AHEAD: f64 = 1.5;
 
@@ -104,7 +101,8 @@ impl SelfContact {
     /// Self-collision with a collision thickness in metres and contact stiffness per vertex, N/m. A thickness of zero turns it
     /// off.
     pub fn new(sheet: &Sheet, thickness: f64, stiffness: Vec<f64>) -> Self {
-        let thickness = thickness.min(MOST_THICKNESS * sheet.mean_edge());
+        // Thicker, and neighbours in flat cloth would be in contact.
+        let thickness = thickness.min(0.7 * sheet.mean_edge());
         Self { thickness, stiffness, ..Self::default() }
     }
 

@@ -17,9 +17,6 @@ use crate::cloth::fabric::Bending as Stiffness;
 use crate::drape::sheet::Sheet;
 use crate::geometry::parallel::LEAST_SUMS;
 
-/// Largest coefficient of a second derivative, times the squared size of the triangle: a fit beyond this amplifies noise.
-const MOST_GAIN: f64 = 20.0;
-
 /// Bending energy as a sparse symmetric matrix Q, N/m: xᵀQx/2 in each axis.
 #[derive(Clone, Debug)]
 pub struct Bending {
@@ -298,8 +295,9 @@ fn fitted(points: &[(u32, DVec2)], centre: DVec2, size: f64) -> Option<Stencil> 
     };
     let weights: Vec<[f64; 3]> =
         rows.iter().zip(&nearness).map(|(row, &w)| [4, 3, 5].map(|of| second(row, w, of))).collect();
+    // The largest coefficient of a second derivative: a fit beyond twenty amplifies noise.
     let gain = weights.iter().flatten().fold(0.0, |most: f64, w| most.max(w.abs())) * size * size;
-    (gain <= MOST_GAIN).then(|| Stencil { vertices: points.iter().map(|&(v, _)| v).collect(), weights })
+    (gain <= 20.0).then(|| Stencil { vertices: points.iter().map(|&(v, _)| v).collect(), weights })
 }
 
 /// Monomials of a quadratic: 1, u, v, u²/2, v²/2, uv.

@@ -12,8 +12,6 @@ use crate::drape::sheet::Sheet;
 use crate::drape::solver::small_steps::SmallSteps;
 use crate::drape::solver::ties::Fastened;
 
-/// Distance of two layers that a button holds together, in thicknesses of the cloth: a little more than contact keeps them apart.
-const LAYERS_APART: f64 = 1.2;
 /// Bending stiffness of a hem in that of the cloth: between two layers that slide on each other (2) and that are one (8). Piping has
 /// the same, whatever its radius: both allowances of its cover lie on those of the seam, four layers that slide on each other. Its
 /// cord adds nothing, as its yarns slide too.
@@ -74,7 +72,8 @@ impl Worked {
 
     /// Hands it to the solver; cloth is `thickness` metres thick.
     pub fn give(self, small: &mut SmallSteps, thickness: f64) {
-        let length = LAYERS_APART * thickness;
+        // A button holds two layers a little farther apart than contact keeps them.
+        let length = 1.2 * thickness;
         small.fastened = self.buttons.into_iter().map(|ends| Fastened { ends, length }).collect();
         (small.folds, small.bands) = (self.folds, self.bands);
     }

@@ -25,13 +25,8 @@ use crate::drape::solver::steps::Scene;
 use crate::drape::solver::ties::{Fastened, SewingSpring};
 use crate::drape::state::State;
 
-/// Distance, in offsets, that a vertex may move before its nearest point of the body is looked up again. Over a sphere of radius
-/// R the tangent plane is then off by (STALE × offset)²/2R: twice the offset squared over R.
-const STALE: f64 = 2.0;
 /// Safety factor on the stability limit of explicit bending.
 const SAFE: f64 = 0.9;
-/// Gap (m) below which sewn ends are kept together even though the body pushes them apart.
-const NEARLY_SHUT: f64 = 0.002;
 /// Speed at which cloth leaves a body when it is deeper than its own motion brought it, m/s; it gains no momentum by that.
 pub const EASE: f64 = 0.3;
 /// Cosine of the angle between the normals of two successive nearest points below which they form a crease: cloth is then kept
@@ -47,9 +42,6 @@ const CREASE_SPEED: f64 = 1.5;
 const AHEAD: f64 = 12.0;
 /// Smallest and largest search distance of the broad phase, metres.
 const REACH: (f64, f64) = (0.001, 0.05);
-/// Broad-phase searches in one small step. A vertex that leaves its search distance, as cloth that is struck does, continues
-/// after another search; after the last it stays where it is.
-const MOST_LOOKS: usize = 3;
 
 /// Solver of small steps with its memory.
 #[derive(Clone, Debug)]
@@ -373,7 +365,8 @@ impl SmallSteps {
                 self.queries += queries;
                 self.skipped += skipped;
             }
-            self.draw(x, NEARLY_SHUT, small);
+            // Sewn ends less than 2 mm apart are kept together even though the body pushes them apart.
+            self.draw(x, 0.002, small);
         }
         self.truncate(around, before, &mut state.positions, (small, part));
         for (v, (now, then)) in state.velocities.iter_mut().zip(state.positions.iter().zip(&*before)) {
@@ -439,7 +432,9 @@ impl SmallSteps {
     ) {
         let Some(separation) = &mut self.separation else { return };
         let whole = x.to_vec();
-        for _ in 0..MOST_LOOKS {
+        // A vertex that leaves its search distance, as cloth that is struck does, continues after another search; after the third it
+        // stays where it is.
+        for _ in 0..3 {
             if separation.truncate(x) == 0 {
                 return;
             }
@@ -670,6 +665,7 @@ fn look(collider: &Collider, x: DVec3, before: DVec3, offset: f64, left: f64) ->
     {
         (normal, point) = (hit.normal, hit.point - back);
     }
-    let good_for = if collider.farthest() > 0.0 { 0.0 } else { STALE * offset.max(1e-4) };
+    // Two offsets: over a sphere of radius R the tangent plane is then off by (2 offset)²/2R, twice the offset squared over R.
+    let good_for = if collider.farthest() > 0.0 { 0.0 } else { 2.0 * offset.max(1e-4) };
     Plane { normal, height: normal.dot(point) + offset, place: x, good_for }
 }

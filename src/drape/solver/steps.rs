@@ -27,8 +27,6 @@ pub(in crate::drape) const CONTACT_OVER_INERTIA: f64 = 400.0;
 /// Smallest contact stiffness per area, N/m³: that of cloth of 0.2 kg/m² at 60 steps a second. Light cloth under tension presses
 /// with far more than its weight.
 const CONTACT_PER_AREA: f64 = 3e5;
-/// Largest initial acceleration, in units of gravity, at which a vertex counts as starting from rest or free fall.
-const CALM: f64 = 3.0;
 
 /// Everything that stays the same over steps.
 #[derive(Clone, Debug)]
@@ -184,7 +182,8 @@ impl Steps {
     fn begin(&mut self, scene: &Scene, state: &State, h: f64) {
         let mut force = vec![DVec3::ZERO; scene.sheet.len()];
         scene.elastic.add_gradient(&state.positions, &mut force);
-        let bound = CALM * scene.gravity.length().max(1.0);
+        // A vertex that begins with more than three times the acceleration of gravity neither rests nor falls freely.
+        let bound = 3.0 * scene.gravity.length().max(1.0);
         self.before.clear();
         for (i, force) in force.into_iter().enumerate() {
             let (x, v) = (state.positions[i], state.velocities[i]);
