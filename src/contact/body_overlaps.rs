@@ -8,8 +8,8 @@ use crate::body::Surface;
 use crate::geometry::adjacency::NONE;
 use crate::geometry::crossings::self_crossings;
 
-/// Distance along the skin from a self-intersection within which the intersecting parts exclude each other, metres on
-/// a body 1.5 m large.
+/// Distance along the skin from a self-intersection within which the intersecting parts exclude each other, metres on a body 1.5 m
+/// large. Chosen by trial; it bounds how much of the other part's skin cloth ignores.
 const REACH: f64 = 0.15;
 /// Distance along the skin within which intersections belong to one part, metres on a body 1.5 m large. A fold whose
 /// two sides are so near intersects only itself, and excludes nothing.

@@ -11,13 +11,17 @@ use crate::contact::BodyOverlaps;
 use crate::contact::tracker::Lengths;
 use crate::geometry::parallel::LEAST_SHARE;
 
-/// Share of the offset that the interiors of faces and edges must keep from the skin where the vertices keep all of it.
+/// Share of the offset that the interiors of faces and edges must keep from the skin where the vertices keep all of it. Chosen by
+/// trial; it bounds how far vertices have to be raised over round skin.
 pub const FACE_CLEARANCE: f64 = 0.25;
-/// Distance from the skin within which faces are tested for being on the wrong side, metres on a body 1.5 m large.
+/// Distance from the skin within which faces are tested for being on the wrong side, metres on a body 1.5 m large. Chosen by trial;
+/// farther off, the nearest skin says little about the side on which cloth belongs.
 const WRONG_REACH: f64 = 0.02;
-/// Cosine between the normals of face and skin below which the face is on the wrong side.
+/// Cosine between the normals of face and skin below which the face is on the wrong side. Chosen by trial: a face that stands
+/// upright on the skin, as in a fold, is not wrong yet.
 const WRONG: f64 = -0.15;
-/// Sample points of a face, in barycentric coordinates.
+/// Sample points of a face, in barycentric coordinates. The middles of its sides, of the whole and of its three outer quarters;
+/// vertices are looked at by themselves.
 const SAMPLES: [[f64; 3]; 7] = [
     [0.5, 0.5, 0.0],
     [0.0, 0.5, 0.5],

@@ -31,7 +31,8 @@ pub(super) struct Lengths {
     pub ahead: f64,
 }
 
-/// On a body 1.5 m large.
+/// On a body 1.5 m large. `kept` is a twentieth of the usual offset. `slow`, `certain` and `ahead` change no result, only how much
+/// is searched.
 const LENGTHS: Lengths = Lengths { sight: 0.03, kept: 0.0002, slow: 0.0005, certain: 1e-6, ahead: 0.002 };
 
 impl Lengths {

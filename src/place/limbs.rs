@@ -6,11 +6,11 @@ use glam::DVec3;
 
 use crate::contact::Bone;
 
-/// Distance from the plane between left and right within which a bone's ends must be for it to belong to the middle,
-/// as a fraction of the body's height.
+/// Distance from the plane between left and right within which a bone's ends must be for it to belong to the middle, as a fraction
+/// of the body's height. Chosen by trial.
 const MIDDLE: f64 = 0.05;
 
-/// Height on the trunk, as a fraction of its length, above which arms begin and below which legs do.
+/// Height on the trunk, as a fraction of its length, above which arms begin and below which legs do. Chosen by trial.
 const ARMS: f64 = 0.3;
 
 /// The part of the body that a bone carries.

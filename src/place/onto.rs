@@ -25,13 +25,17 @@ struct Near {
     sleeve: f64,
 }
 
+/// Chosen by trial; what is farther off than this is taken to be placed for another body.
 const NEAR: Near = Near { garment: 0.06, with_turned_sleeves: 0.01, ring: 0.15, sleeve: 0.3 };
 
-/// Largest distance by which a garment cut in one with its sleeves is raised for its arms, metres on a body 1.5 m large.
+/// Largest distance by which a garment cut in one with its sleeves is raised for its arms, metres on a body 1.5 m large. Chosen by
+/// trial; it bounds what one point that lies far too low does to the whole garment.
 const RAISED: f64 = 0.1;
-/// Sine of the angle of an arm to the frontal plane above which it counts as stretched to the front or back.
+/// Sine of the angle of an arm to the frontal plane above which it counts as stretched to the front or back. About 27°. Chosen by
+/// trial.
 const FORWARD: f64 = 0.45;
-/// Distance from the middle beyond which pieces of an arm must be wholly, as a fraction of the trunk's half breadth.
+/// Distance from the middle beyond which pieces of an arm must be wholly, as a fraction of the trunk's half breadth. Chosen by
+/// trial; the labels and names of pieces come first.
 const BESIDE: f64 = 0.7;
 
 /// New placements of pieces, and messages about what was done.

@@ -9,11 +9,12 @@ use crate::pattern::{Piece, Roll, SpacePose};
 use crate::place::limbs::{Limb, Part, limbs};
 use crate::wrap::ROUND_LIMBS;
 
-/// Distance between skin and flat pieces before and behind the body, metres on a body 1.5 m large.
+/// Distance between skin and flat pieces before and behind the body, metres on a body 1.5 m large. Chosen by trial.
 const BEFORE: f64 = 0.05;
-/// Largest protrusion of the body that flat pieces before and behind it are moved out for, metres on a body 1.5 m large.
+/// Largest protrusion of the body that flat pieces before and behind it are moved out for, metres on a body 1.5 m large. Chosen by
+/// trial: what stands out farther, as a stretched arm, is not the trunk.
 const STANDS_OUT: f64 = 0.25;
-/// Fraction of a limb's circumference above which a piece at the limb is rolled.
+/// Fraction of a limb's circumference above which a piece at the limb is rolled. Chosen by trial.
 const ROLLED: f64 = 0.55;
 
 /// An arrangement point: a place on the skin, with the directions in which cloth is placed there.

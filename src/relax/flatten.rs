@@ -10,8 +10,8 @@ use crate::cloth::Garment;
 use crate::geometry::adjacency::Lists;
 use crate::geometry::parallel::LEAST_SHARE;
 
-/// Cosines between the skin normals at a hinge and their mean. All above the second value: one surface; any below the
-/// first: two limbs, or the two sides of a fold; between them it is blended.
+/// Cosines between the skin normals at a hinge and their mean. All above the second value: one surface; any below the first: two
+/// limbs, or the two sides of a fold; between them it is blended. About 45° and 26°. Chosen by trial.
 const AGREE: [f64; 2] = [0.7, 0.9];
 
 /// A hinge: an inner edge and its two opposite vertices, with the weights K.

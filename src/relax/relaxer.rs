@@ -25,9 +25,11 @@ use crate::relax::{Memory, RelaxSettings};
 /// Force by which touching cloth clings to the skin, in weights of the whole cloth, per unit of friction: four weights at the usual
 /// friction of 0.3 (ALGORITHMS.md 1: the friction step is twice the gravity step; contact is uneven).
 const CLING: f64 = 4.0 / 0.3;
-/// Fraction of the offset that a vertex keeps above its track plane in every step.
+/// Fraction of the offset that a vertex keeps above its track plane in every step. Chosen by trial; the solve brings it back to the
+/// offset.
 pub const LEAST_HEIGHT: f64 = 0.5;
-/// Distance from the skin within which cloth is tested for being on the wrong side, metres on a body 1.5 m large.
+/// Distance from the skin within which cloth is tested for being on the wrong side, metres on a body 1.5 m large. Chosen by trial;
+/// farther off, as between arm and trunk, the nearest skin is often not that to which the cloth belongs.
 const WRONG_SIDE_REACH: f64 = 0.015;
 /// Factor on the directions that separate layers, per parting: they fade out, which keeps layers apart for a while.
 const STILL_PARTING: f64 = 0.9;

@@ -25,14 +25,15 @@ struct Strains {
     at_once: f64,
 }
 
+/// Chosen by trial, but for `exact`, which is above rounding and far below what can be seen.
 const STRAINS: Strains = Strains { exact: 1e-6, spreadable: 0.03, too_tight: 0.05, at_once: 0.15 };
 
 /// Global steps in which what changed in one place takes effect round it: they spread strain over enough cloth for strain limiting
-/// to do the rest, and follow each repair.
+/// to do the rest, and follow each repair. Chosen by trial.
 const FEW_STEPS: usize = 2 * STEPS_PER_LOOK;
-/// Cost of conforming, in global steps.
+/// Cost of conforming, in global steps. Work is cut into ticks by it; no result depends on it.
 const COST_OF_CARRYING: usize = 8;
-/// Cost of one round of strain limiting, in global steps.
+/// Cost of one round of strain limiting, in global steps. See [`COST_OF_CARRYING`].
 const COST_OF_LIMITING: usize = 2;
 
 /// A change of pose in progress.

@@ -7,11 +7,12 @@ use crate::relax::Relaxer;
 use crate::relax::relaxer::LEAST_HEIGHT;
 use crate::repose::excess::Lengths;
 
-/// Edges are projected to this share of the allowed strain, which leaves a margin for later repairs.
+/// Edges are projected to this share of the allowed strain, which leaves a margin for later repairs. Chosen by trial.
 const AIM: f64 = 0.8;
-/// Passes over all edges with the same contacts.
+/// Passes over all edges with the same contacts. Chosen by trial; it bounds how far strain spreads before contacts are found anew.
 const SWEEPS: usize = 12;
-/// Distance within which skin is searched for, in offsets.
+/// Distance within which skin is searched for, in offsets. Chosen by trial; it bounds how far vertices may come down in the sweeps
+/// of a round unseen.
 const REACH: f64 = 4.0;
 
 /// One round of strain limiting with contacts found anew: moves the edges of `state` towards strains of at most `most` relative

@@ -17,7 +17,7 @@ use crate::geometry::parallel::LEAST_SHARE;
 use crate::geometry::rebuild::Rebuild;
 use crate::repose::turns::{gradient, mean, triangle_turn, turns};
 
-/// Largest rotation of a part of the body between two poses, radians.
+/// Largest rotation of a part of the body between two poses, radians. About 11°. Chosen by trial.
 const LARGEST_TURN: f64 = 0.2;
 
 /// Intermediate bodies between `from` and `to`: enough for a few degrees of rotation from one to the next, but at most `most`.

@@ -21,9 +21,10 @@ use crate::repose::settings::{Outcome, ReposeSettings};
 use crate::repose::transfer::Transfer;
 
 /// Acceleration of global steps in the same contacts. (Chebyshev's semi-iteration would amplify cloth that intersects itself.)
+/// Chosen by trial.
 const PACES: [Acceleration; 3] = Acceleration::longer(1.7);
-/// Global steps between two looks at what they reached: the strain and folds of the cloth, and whether its layers intersect, which are
-/// then separated.
+/// Global steps between two looks at what they reached: the strain and folds of the cloth, and whether its layers intersect, which
+/// are then separated. Chosen by trial.
 pub(super) const STEPS_PER_LOOK: usize = 4;
 
 /// A dressed garment bound to its body.

@@ -7,8 +7,8 @@ use glam::{DQuat, DVec3};
 use crate::cloth::{ClothState, Counters, Garment};
 use crate::relax::global::GlobalSolver;
 
-/// Length scale, metres on a body whose largest side is 1.5 m: above it rotations and positions follow the skin, below it the
-/// cloth itself.
+/// Length scale, metres on a body whose largest side is 1.5 m: above it rotations and positions follow the skin, below it the cloth
+/// itself. Chosen by trial.
 const REACH: f64 = 0.06;
 
 /// Poisson solver of a garment, factored once for all poses.

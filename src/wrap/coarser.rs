@@ -7,9 +7,10 @@ use crate::pattern::Pattern;
 
 /// Edge length of the coarsest mesh, metres on a body 1.5 m large: the longest that still fits an arm and its armhole.
 const COARSEST: f64 = 0.028;
-/// Largest ratio of edge lengths between a mesh and the next finer one.
+/// Largest ratio of edge lengths between a mesh and the next finer one. Chosen by trial; it bounds how much is left to the finer
+/// mesh, in which long swings of free cloth take many steps.
 const MOST_RATIO: f64 = 2.6;
-/// Ratio of the coarsest edge length to the wanted one below which a mesh is dressed without coarser ones.
+/// Ratio of the coarsest edge length to the wanted one below which a mesh is dressed without coarser ones. Chosen by trial.
 const LEAST_RATIO: f64 = 1.4;
 
 /// Coarser meshes of `pattern` than `garment` (built at `edge_length` metres), the coarsest last; none when `garment`

@@ -22,10 +22,11 @@ use crate::wrap::plan::{PLAIN, PLANS, Plan};
 use crate::wrap::roots::{PairStretch, Root, roots};
 use crate::wrap::settling::Settling;
 
-/// Number of settling steps between two separations of intersecting layers. Flipped cloth, and cloth on the wrong side, is turned over
-/// only after as many: by then it is roughly in place.
+/// Number of settling steps between two separations of intersecting layers. Flipped cloth, and cloth on the wrong side, is turned
+/// over only after as many: by then it is roughly in place. Chosen by trial.
 const STEPS_PER_PARTING: usize = 10;
-/// Number of triangles per fault below which a wrap has failed; fewer faults are repaired on finer meshes.
+/// Number of triangles per fault below which a wrap has failed; fewer faults are repaired on finer meshes. With 400, four faults of
+/// a T-shirt of 1,422 triangles, which finer meshes repaired, took a second try.
 const TRIANGLES_PER_FAULT: usize = 150;
 
 /// The best result of the plans tried before.

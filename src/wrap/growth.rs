@@ -65,7 +65,8 @@ impl Growth {
     }
 }
 
-/// Cosine between a limb's axis and an edge above which the axis gives no direction of growth across that edge.
+/// Cosine between a limb's axis and an edge above which the axis gives no direction of growth across that edge. Chosen by trial;
+/// what is left of the axis across the edge is then less than 0.6 of it.
 const ALONG_EDGE: f64 = 0.8;
 
 /// Position of a new vertex `v` from its mapped parent triangles, at least `offset` metres out of the body. With a

@@ -27,6 +27,7 @@ struct Holding {
     slack: f64,
 }
 
+/// Chosen by trial on the samples.
 const HOLDING: Holding = Holding {
     growing: 0.3,
     fade: [1.0, 0.3, 0.1],

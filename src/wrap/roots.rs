@@ -12,7 +12,8 @@ use crate::geometry::words::{Words, words};
 use crate::pattern::{Problem, ProblemKind};
 use crate::wrap::{BodyMark, ClothMark, ClothSide, Marks};
 
-/// Length below which a stroke counts as a point, metres on a body 1.5 m large.
+/// Length below which a stroke counts as a point, metres on a body 1.5 m large. A tenth of a millimetre: what is shorter tells no
+/// direction.
 const POINT_MARK: f64 = 1e-4;
 
 /// A root: a vertex placed by a mark.

@@ -17,23 +17,27 @@ use crate::wrap::placed::{
 };
 use crate::wrap::{BodyMark, ClothMark, ClothSide, Marks};
 
-/// Cosine between the skin's normal and the piece's below which a stroke ends.
+/// Cosine between the skin's normal and the piece's below which a stroke ends. Chosen by trial: beyond some 70° a stroke would go
+/// on to the side of the body.
 const TURNED_AWAY: f64 = 0.3;
-/// Step of the march over the skin, metres.
+/// Step of the march over the skin, metres. Chosen by trial; it bounds how exactly strokes follow the skin.
 const STEP: f64 = 0.005;
-/// Distance of strokes from the sides of their piece, metres.
+/// Distance of strokes from the sides of their piece, metres. Chosen by trial; it bounds how near strokes come to seams.
 const INSET: f64 = 0.015;
 /// Distance of a ring of strokes under what it must stay clear of, metres on a body 1.5 m large: the arms and the top of the side
-/// seams, or the upper border of a garment that it carries.
+/// seams, or the upper border of a garment that it carries. Chosen by trial.
 const RING_UNDER: f64 = 0.02;
 /// Largest distance from the middle at which paths down from the shoulders begin, as a fraction of the trunk's half
 /// breadth: farther out they would run round an arm.
 const INSIDE_ARMS: f64 = 0.75;
-/// Distance beyond the start of the arm that a panel must reach to count as having sleeves, metres on a body 1.5 m large.
+/// Distance beyond the start of the arm that a panel must reach to count as having sleeves, metres on a body 1.5 m large. Chosen by
+/// trial; shorter ones follow their seams without marks of their own.
 const SLEEVE: f64 = 0.1;
-/// Distance of cloth and seams from the skin round a limb before they are sewn, metres on a body 1.5 m large.
+/// Distance of cloth and seams from the skin round a limb before they are sewn, metres on a body 1.5 m large. Chosen by trial; it
+/// bounds how much of a limb's shape may lie outside of a tube round it.
 pub const ROUND_LIMBS: f64 = 0.02;
-/// Largest distance by which the ring is lowered below its first height under the arms, metres on a body 1.5 m large.
+/// Largest distance by which the ring is lowered below its first height under the arms, metres on a body 1.5 m large. Chosen by
+/// trial; it bounds how deep armholes may be.
 const LOWER: f64 = 0.2;
 
 /// Marks for the pieces of `pattern` that have a placement; empty when none of them can anchor the garment.

@@ -20,7 +20,7 @@ fn module_of(path: &str) -> Module {
 }
 
 /// The code that is not for tests.
-fn without_tests(code: &str) -> String {
+pub(super) fn without_tests(code: &str) -> String {
     let mut kept = String::new();
     let mut rest = code;
     while let Some(at) = rest.find("#[cfg(test)]") {

@@ -5,7 +5,8 @@ use rayon::prelude::*;
 use crate::contact::separation::broad::{Around, Broad, Pairs};
 use crate::geometry::bvh::Aabb;
 
-/// Margin by which the box of an item is grown, in distances that it may go until the next detection.
+/// Margin by which the box of an item is grown, in distances that it may go until the next detection. With it the trees are
+/// searched in about every third detection; what is found does not depend on it.
 const MARGIN: f64 = 3.0;
 
 /// Boxes that move, and their pairs. What a search finds, and in which order, does not depend on how old the pairs are.

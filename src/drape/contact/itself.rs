@@ -13,7 +13,8 @@ use crate::drape::sheet::Sheet;
 use crate::geometry::bvh::{Aabb, Bvh};
 use crate::geometry::parallel::LEAST_SHARE;
 
-/// Factor on the expected displacements in a step, which widens the distance within which pairs are collected.
+/// Factor on the expected displacements in a step, which widens the distance within which pairs are collected. Chosen by trial;
+/// with more, pairs are collected that do not meet.
 const LOOK_AHEAD: f64 = 1.5;
 
 /// Candidate pairs of one step, and those in contact.

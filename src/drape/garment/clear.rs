@@ -13,7 +13,8 @@ use crate::geometry::mesh::TriMesh;
 
 /// Most steps of [`SEARCH_STEP`]: a piece that still intersects then is left where it was placed.
 const MOST_STEPS: usize = 40;
-/// Distance (m) in front of a piece within which draped cloth counts as an inner layer that the piece must be outside of.
+/// Distance (m) in front of a piece within which draped cloth counts as an inner layer that the piece must be outside of. Chosen by
+/// trial; it bounds how far under what is worn a file may have placed a piece.
 const SIGHT: f64 = 0.15;
 
 /// Returns `places` (metres, one per flat corner of `garment`) with the pieces that are sewn `now` translated along their outer

@@ -20,6 +20,7 @@ pub(super) struct Lifting {
     most: f64,
 }
 
+/// Chosen by trial; `most` bounds how far from the body cloth is lifted that cannot be kept off it.
 pub(super) const LIFTING: Lifting = Lifting { ticks: 6, clearance: 0.5, nearly: 0.02, most: 8.0 };
 
 impl DrapedGarment {

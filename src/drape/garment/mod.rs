@@ -24,7 +24,7 @@ use crate::cloth::{ClothState, Counters, Fabric, GRAVITY, Garment, Skips};
 use crate::contact::{Faces, Obstacle, Separation, separation};
 use crate::drape::contact::body::Collider;
 use crate::drape::forces::bending::Bending;
-use crate::drape::garment::calm::{GENTLE_FOR, calming, gentle};
+use crate::drape::garment::calm::{calming, gentle};
 use crate::drape::garment::laid::{ordered, shortest_sides, springs};
 use crate::drape::garment::lift::LIFTING;
 use crate::drape::garment::on_card::OnCard;
@@ -47,9 +47,10 @@ pub const TICK: f64 = 1.0 / 60.0;
 const SEARCH_STEP: f64 = 0.01;
 /// Clearance that cloth keeps from the skin besides its own thickness, metres: skin yields by about as much.
 const SKIN: f64 = 0.001;
-/// Rate at which air damps motion, 1/s.
+/// Rate at which air damps motion, 1/s. Chosen by trial; it bounds for how long what hangs freely swings.
 const AIR: f64 = 1.5;
-/// Stiffness-proportional damping of bending, seconds.
+/// Stiffness-proportional damping of bending, seconds. Chosen by trial; it bounds for how long folds tremble. More would need
+/// softer bending or shorter steps.
 const BENDING_DAMPING: f64 = 0.001;
 /// Largest contact pressure that friction sees, Pa: a few times the weight of cloth per area. More pressure than that comes from
 /// strain control, whose single pass per small step acts far softer than the cloth is; under friction of the full pressure, tight
@@ -141,7 +142,7 @@ pub struct DrapedGarment {
     in_vain: u32,
     /// The tick that is partly done.
     begun: Option<Box<Begun>>,
-    /// Time for which it has been let down, seconds of unslowed time.
+    /// Time for which it has been let down, seconds of unslowed time; infinite where it was not.
     age: f64,
     /// The attempt under way to pull out deep intersections.
     pulling: Option<Box<Pulling>>,
@@ -248,7 +249,7 @@ impl DrapedGarment {
             parting: (usize::MAX, 0),
             in_vain: 0,
             begun: None,
-            age: GENTLE_FOR,
+            age: f64::INFINITY,
             pulling: None,
             lacking: 0,
             lifted_in_vain: 0,

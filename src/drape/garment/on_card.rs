@@ -16,9 +16,10 @@ use crate::geometry::parallel::LEAST_SEARCHES;
 
 /// Triangles from which on a card is faster than two processor cores: at 10,000 three times (H100), and more with more.
 pub const LEAST_TRIANGLES: usize = 8000;
-/// Vertices times small steps in one call of [`DrapedGarment::go_on`].
+/// Vertices times small steps in one call of [`DrapedGarment::go_on`]. Chosen by trial; it bounds for how long a call has to wait
+/// for the card.
 const MOST_WORK: usize = 12_000_000;
-/// Ticks for which the processor drapes after the card could not.
+/// Ticks for which the processor drapes after the card could not. Chosen by trial; it bounds how often the card is tried in vain.
 const PAUSE: u32 = 12;
 
 /// A garment on a card.

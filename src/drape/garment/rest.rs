@@ -26,6 +26,7 @@ struct ComingToRest {
     slowest: f64,
 }
 
+/// Chosen by trial, but for the slowest time scale; `most_ticks` bounds how long what never rests is draped.
 const COMING_TO_REST: ComingToRest = ComingToRest {
     way: 5e-5,
     residual: 0.01,

@@ -37,6 +37,7 @@ struct Pace {
     patience: u32,
 }
 
+/// Chosen by trial; at most `shut_in` and `patience` ticks together bound how long sewing takes.
 const PACE: Pace =
     Pace { substeps: 24, shrink: 0.4, shut_in: [45, 120], slow: 0.02, still: 20, patience: 240 };
 

@@ -25,6 +25,7 @@ pub(super) struct Parting {
     most_in_vain: u32,
 }
 
+/// Chosen by trial; the last three bound for how long a way out is looked for where there may be none.
 pub(super) const PARTING: Parting =
     Parting { look_ticks: 12, ticks: 4, way: 0.0005, most: 40, most_pulls: 80, most_in_vain: 3 };
 

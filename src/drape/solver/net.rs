@@ -9,9 +9,10 @@ pub use crate::card::Spring;
 
 /// Vertices per part at least, as a smaller part is not worth it.
 const PART: usize = 1250;
-/// Most parts.
+/// Most parts. It bounds how many processor cores help, since the result must not depend on their number.
 const MOST_PARTS: usize = 8;
-/// Largest share of edges between parts with which a partition is used; otherwise the net stays in one part.
+/// Largest share of edges between parts with which a partition is used; otherwise the net stays in one part. Those are projected
+/// one after the other.
 const MOST_BETWEEN: f64 = 0.35;
 
 /// Net of springs that become rigid beyond a strain.

@@ -2,7 +2,8 @@
 
 use crate::geometry::adjacency::{Lists, NONE};
 
-/// Parts of at most this many vertices are not divided further.
+/// Parts of at most this many vertices are not divided further. Chosen by trial; it bounds how far an order of elimination with few
+/// numbers in the factor is looked for.
 const LEAST_PART: usize = 24;
 
 /// Elimination order of all vertices of a graph, with little fill-in for meshes.
