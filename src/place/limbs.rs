@@ -10,9 +10,6 @@ use crate::contact::Bone;
 /// of the body's height. Chosen by trial.
 const MIDDLE: f64 = 0.05;
 
-/// Height on the trunk, as a fraction of its length, above which arms begin and below which legs do. Chosen by trial.
-const ARMS: f64 = 0.3;
-
 /// The part of the body that a bone carries.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Part {
@@ -73,7 +70,8 @@ pub fn limbs(bones: &[Bone], tall: f64) -> Vec<Limb> {
         let away = |p: DVec3| p.distance(hips.lerp(neck, up(p).clamp(0.0, 1.0)));
         let bone = if away(bone[1]) < away(bone[0]) { [bone[1], bone[0]] } else { bone };
         let left = centre(&bone).x > middle;
-        let part = match up(bone[0]) > ARMS {
+        // Legs begin at the lower end of the trunk, arms and head near the upper one.
+        let part = match up(bone[0]) > 0.3 {
             true if is_middle(&&bone) => Part::Head,
             true => Part::Arm { left },
             false if is_middle(&&bone) => Part::Other(k + 1),

@@ -17,9 +17,6 @@ use crate::geometry::parallel::LEAST_SHARE;
 use crate::geometry::rebuild::Rebuild;
 use crate::repose::turns::{gradient, mean, triangle_turn, turns};
 
-/// Largest rotation of a part of the body between two poses, radians. About 11°. Chosen by trial.
-const LARGEST_TURN: f64 = 0.2;
-
 /// Intermediate bodies between `from` and `to`: enough for a few degrees of rotation from one to the next, but at most `most`.
 /// They keep the position and orientation of `from`; the rigid motion of the whole body is left for the last step, where
 /// conforming is exact. `rebuild` is made from `from` when first needed.
@@ -40,7 +37,8 @@ pub(super) fn between(
         return Vec::new();
     }
     let largest = *angles.select_nth_unstable_by(at, f64::total_cmp).1;
-    let count = ((largest / LARGEST_TURN).ceil() as usize).saturating_sub(1).min(most);
+    // A part of the body turns by at most 0.2 radians, about 11°, from one body to the next. Chosen by trial.
+    let count = ((largest / 0.2).ceil() as usize).saturating_sub(1).min(most);
     if count == 0 {
         return Vec::new();
     }

@@ -7,10 +7,6 @@ use glam::{DQuat, DVec3};
 use crate::cloth::{ClothState, Counters, Garment};
 use crate::relax::global::GlobalSolver;
 
-/// Length scale, metres on a body whose largest side is 1.5 m: above it rotations and positions follow the skin, below it the cloth
-/// itself. Chosen by trial.
-const REACH: f64 = 0.06;
-
 /// Poisson solver of a garment, factored once for all poses.
 #[derive(Clone, Debug)]
 pub(super) struct Transfer {
@@ -25,7 +21,9 @@ impl Transfer {
     pub fn new(garment: &Garment, cloth: &ClothState, scale: f64) -> Option<Self> {
         let mut solver = GlobalSolver::new(garment)?;
         solver.set_triangles(garment, &cloth.mapped);
-        let tie = (garment.mean_edge() / (REACH * scale)).powi(2);
+        // A length scale, metres on a body whose largest side is 1.5 m: above it rotations and positions follow the skin, below it the
+        // cloth itself. Chosen by trial.
+        let tie = (garment.mean_edge() / (0.06 * scale)).powi(2);
         Some(Self { solver, ties: vec![tie; garment.vertex_count] })
     }
 

@@ -11,8 +11,6 @@ use crate::geometry::crossings::meetings;
 use crate::geometry::ids::PieceId;
 use crate::geometry::mesh::TriMesh;
 
-/// Most steps of [`SEARCH_STEP`]: a piece that still intersects then is left where it was placed.
-const MOST_STEPS: usize = 40;
 /// Distance (m) in front of a piece within which draped cloth counts as an inner layer that the piece must be outside of. Chosen by
 /// trial; it bounds how far under what is worn a file may have placed a piece.
 const SIGHT: f64 = 0.15;
@@ -48,7 +46,8 @@ pub fn cleared(
                 && meetings(&inner.positions, &inner_edges, &mesh, &mesh.tree()).is_empty()
                 && !meetings(&before, &sights, &inner, &inner_tree).iter().any(is_behind)
         };
-        let shifts = (0..=MOST_STEPS).map(|k| panel.out * (SEARCH_STEP * k as f64));
+        // A piece that still intersects 40 cm away is left where it was placed.
+        let shifts = (0..=40).map(|k| panel.out * (SEARCH_STEP * f64::from(k)));
         let Some(shift) = shifts.into_iter().find(|&shift| clear(shift)) else { continue };
         for (place, corner) in places.iter_mut().zip(&garment.corners) {
             if corner.piece == *piece {
