@@ -44,6 +44,7 @@
 //!   that waits for signals in `cli::interrupt`.
 //! - No clock, no unseeded randomness, no hash-map iteration in `session`, `sim` or below, nor in `marker` and `pack`.
 //! - Same input, same bits, on any number of threads.
+//! - What is tuned in `contact`, `relax`, `wrap`, `place`, `drape` and `repose` is little, and says why it is what it is.
 //!
 //! `tests/tidy` checks these rules.
 

@@ -54,7 +54,7 @@ pub(super) struct Beside {
     in_vain: u64,
     /// Number of groups looked at first after they were measured; None: not yet.
     first: Option<u64>,
-    /// Factor on [`MEASURE`]; 0 before the groups are first measured.
+    /// Factor on how much is spent before the groups are measured anew, 1..=64; 0 before they are first measured.
     patience: u64,
 }
 
