@@ -19,4 +19,4 @@ pub use mark_error::{MarkError, mark_error};
 pub use marks::{BodyMark, ClothMark, ClothSide, MarkPlace, Marks, Tie};
 pub use placed::RUNS_ALONG;
 pub use roots::{PairStretch, stretches};
-pub use suggest::{Stand, stand, suggested};
+pub use suggest::{Stand, are_suggested, stand, suggested};
