@@ -10,7 +10,7 @@ use crate::session::{Artwork, Command, Dye, Motif, Print};
 use crate::ui::actions::Action;
 use crate::ui::actions::asks::{Ask, Asks};
 use crate::ui::language::fields::drag_value;
-use crate::ui::language::{counted, say, tr};
+use crate::ui::language::{counted, say, tr, unbroken};
 use crate::ui::panels::artwork::surface_ui;
 use crate::ui::panels::colours::{SWATCH, colour_ui, panel_menu};
 use crate::ui::panels::context::PanelContext;
@@ -214,7 +214,8 @@ fn matches_ui(ui: &mut Ui, told: &PanelContext<'_>) {
             print = tr(motif.name()),
             mm = format!("{:.0}", offset * 1e3)
         );
-        ui.label(RichText::new(words).small());
+        let label = ui.label(RichText::new(unbroken(&words)).small());
+        label.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Label, true, &words));
     }
     if !meeting.is_empty() {
         let words = counted(meeting.len(), "Prints meet at 1 seam", "Prints meet at {n} seams");
