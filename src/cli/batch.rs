@@ -93,7 +93,10 @@ pub fn batch(arguments: &Dress) -> Result<(), Failure> {
             lines.add(&line)?;
         }
         output::say(if arguments.json { &line } else { &told.words });
-        not_dressed += usize::from(matches!(told.failure, Some(Failure::Faults(_))));
+        if let Some(note) = &told.note {
+            output::complain(note);
+        }
+        not_dressed += usize::from(matches!(told.failure, Some(Failure::Faults { .. })));
         let code = |failure: &Option<Failure>| failure.as_ref().map_or(0, Failure::exit_code);
         if code(&told.failure) > code(&worst) {
             worst = told.failure;
@@ -101,7 +104,7 @@ pub fn batch(arguments: &Dress) -> Result<(), Failure> {
     }
     match worst {
         None => Ok(()),
-        Some(Failure::Faults(_)) => Err(Failure::not_dressed(not_dressed, jobs.len())),
+        Some(Failure::Faults { .. }) => Err(Failure::not_dressed(not_dressed, jobs.len())),
         Some(failure) => Err(failure),
     }
 }
@@ -123,21 +126,24 @@ struct Told<'a> {
     times: Times,
     /// A summary for people.
     words: String,
+    /// What was tried, told after it.
+    note: Option<String>,
 }
 
 impl<'a> Told<'a> {
     fn new(job: &'a Job, done: Result<Done, Failure>, begun: Begun) -> Self {
         let times = Times { seconds: begun.seconds(), processor_seconds: begun.processor_seconds() };
         match done {
-            Ok(Done { verdict, resumed, .. }) => {
+            Ok(Done { verdict, resumed, note, .. }) => {
                 let failure = verdict.failure();
                 let before = if resumed { " (done before)" } else { "" };
                 let words = format!("{verdict}{before}");
-                Self { job, verdict: Some(verdict), resumed, failure, times, words }
+                Self { job, verdict: Some(verdict), resumed, failure, times, words, note }
             }
             Err(failure) => {
                 let words = format!("{}: failed: {failure}", job.entry.project.display());
-                Self { job, verdict: None, resumed: false, failure: Some(failure), times, words }
+                let failure = Some(failure);
+                Self { job, verdict: None, resumed: false, failure, times, words, note: None }
             }
         }
     }

@@ -21,6 +21,9 @@ pub struct Done {
     pub report: String,
     /// Whether the result was already there, made from the same inputs.
     pub resumed: bool,
+    /// A line about what was tried, where no start was without a fault or only an undraped one; None as well for a result that was
+    /// already there.
+    pub note: Option<String>,
 }
 
 /// Dresses `project` into `folder`. With --resume a result that is already there is left.
@@ -31,7 +34,7 @@ pub fn dress_one(project: &Path, folder: &Path, arguments: &Dress) -> Result<Don
         && arguments.save.as_deref().is_none_or(Path::exists)
         && let Some((verdict, report)) = Verdict::stored(folder, &made_from)
     {
-        return Ok(Done { verdict, report, resumed: true });
+        return Ok(Done { verdict, report, resumed: true, note: None });
     }
     let mut seconds = Seconds::default();
     let input = input::load(project, &arguments.input)?;
@@ -50,9 +53,8 @@ pub fn dress_one(project: &Path, folder: &Path, arguments: &Dress) -> Result<Don
     dress_by(&mut session, project, arguments, &mut seconds)?;
     run::to_rest(&mut session, arguments.max_ticks, &mut seconds)?;
     let started = session.snapshot().started.clone();
-    if let Some(words) = started.as_deref().and_then(doubt) {
-        output::complain(&format!("{}: note: {words}", project.display()));
-    }
+    let note = started.as_deref().and_then(doubt);
+    let note = note.map(|words| format!("{}: note: {words}", project.display()));
     if arguments.drape && !started.is_some_and(|started| started.taken().draped) {
         run::drape(&mut session, project, arguments.max_ticks, &mut seconds)?;
     }
@@ -67,7 +69,7 @@ pub fn dress_one(project: &Path, folder: &Path, arguments: &Dress) -> Result<Don
     let mut report = report::report(&mut session, &input.name, picture, seconds)?;
     (report.inputs, report.made_from) = (input.files, Some(made_from));
     report.finish(folder, start)?;
-    Ok(Done { verdict: report.verdict()?, report: report.json()?, resumed: false })
+    Ok(Done { verdict: report.verdict()?, report: report.json()?, resumed: false, note })
 }
 
 /// Wraps by the marks; without any, dresses by the best start.
@@ -105,16 +107,24 @@ fn no_start(pattern: &Pattern) -> String {
 /// A warning where no start ended without a fault, or none when it was draped.
 fn doubt(started: &Started) -> Option<String> {
     let faults = |tried: &Tried| match tried.faults.len() {
-        1 => format!("{tried} has 1 fault"),
-        n => format!("{tried} has {n} faults"),
+        1 => format!("{} has 1 fault", named(tried)),
+        n => format!("{} has {n} faults", named(tried)),
     };
     let all: Vec<String> = started.tried.iter().map(faults).collect();
-    let taken = started.taken();
+    let taken = named(started.taken());
     if let Some(fault) = started.draped_fault() {
         return Some(format!("{taken} is taken, not draped: when it was draped, {fault}"));
     }
-    (!taken.faults.is_empty())
+    (!started.taken().faults.is_empty())
         .then(|| format!("no start is without a fault: {}; {taken} is taken", all.join(", ")))
+}
+
+/// A start as it is told to somebody who painted no marks.
+fn named(tried: &Tried) -> String {
+    match tried.start {
+        Start::Marks => format!("the start by suggested {tried}"),
+        Start::Placement => format!("the start from {tried}"),
+    }
 }
 
 /// Begins the wrap; the error says why it cannot begin.
@@ -144,6 +154,6 @@ fn begin(
         problems.iter().for_each(|words| output::complain(&format!("{}: {words}", project.display())));
         return Ok(());
     }
-    let words = format!("no cloth could be put on the body: {}", problems.join("; "));
+    let words = format!("{}; so no cloth could be put on the body", problems.join("; "));
     Err(Failure::input(project, words))
 }

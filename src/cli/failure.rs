@@ -13,9 +13,9 @@ pub enum Failure {
     /// The work was done, and a check of its result failed.
     #[error("{0}")]
     Check(String),
-    /// A garment is not dressed: its faults, each with its place.
-    #[error("{}", .0.join("; "))]
-    Faults(Vec<String>),
+    /// A garment is not dressed: its faults, each with its place; then what was tried and what to do, which are told after them.
+    #[error("{}", faults.join("; "))]
+    Faults { faults: Vec<String>, then: Vec<String> },
     /// The arguments contradict each other.
     #[error("{0}")]
     Usage(String),
@@ -63,7 +63,7 @@ impl Failure {
     /// The exit code, as in the README's table.
     pub fn exit_code(&self) -> u8 {
         match self {
-            Self::Check(_) | Self::Faults(_) => 1,
+            Self::Check(_) | Self::Faults { .. } => 1,
             Self::Usage(_) => 2,
             Self::Input { .. } => 3,
             Self::Limit(_) => 4,

@@ -24,12 +24,13 @@ pub fn check() -> Result<(), Failure> {
     }
 }
 
-/// Reports why the program ends, each fault of a garment in a line of its own. A signal is reported once, by whichever thread is
-/// first.
+/// Reports why the program ends: each fault of a garment in a line of its own, then what was tried and what to do. A signal is
+/// reported once, by whichever thread is first.
 pub fn tell(failure: &Failure) {
     match failure {
-        Failure::Faults(faults) => {
-            faults.iter().for_each(|words| output::complain(&format!("toile: {words}")))
+        Failure::Faults { faults, then } => {
+            faults.iter().for_each(|words| output::complain(&format!("toile: {words}")));
+            then.iter().for_each(|words| output::complain(words));
         }
         Failure::Signal(_) if TOLD.swap(true, Ordering::Relaxed) => {}
         _ => output::complain(&format!("toile: {failure}")),

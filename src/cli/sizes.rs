@@ -100,7 +100,8 @@ fn in_size(
     size.folder = folder.file_name().map(|folder| folder.to_string_lossy().into_owned());
     let saved = folder.join("dressed.toile");
     match dress_one(&arguments.project, folder, &dress_arguments(arguments, name, folder, &saved)) {
-        Ok(Done { verdict, .. }) => {
+        Ok(Done { verdict, note, .. }) => {
+            note.iter().for_each(|words| output::complain(words));
             size.take(verdict.triangles(), verdict.strain_p99(), verdict.failed_check().map(Words::plain))
         }
         Err(failure @ (Failure::Input { .. } | Failure::Limit(_))) => {

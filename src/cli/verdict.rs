@@ -115,6 +115,11 @@ impl Verdict {
         self.strain.p99
     }
 
+    /// Whether the garment was put on by marks of its own.
+    pub fn has_marks(&self) -> bool {
+        self.start.is_none() && self.mark_error.points > 0
+    }
+
     /// All faults with their places; none when the project is dressed.
     fn told(&self) -> Vec<String> {
         self.faults.iter().map(|f| format!("{}: {}", f.problem.place, f.problem.words)).collect()
@@ -128,7 +133,7 @@ impl Verdict {
     /// All faults as a failure, which is told a line for each; None when the project is dressed.
     pub fn failure(&self) -> Option<Failure> {
         let told = self.told();
-        (!told.is_empty()).then_some(Failure::Faults(told))
+        (!told.is_empty()).then_some(Failure::Faults { faults: told, then: Vec::new() })
     }
 
     /// A summary in one line, for people, that counts the faults; what they are is told by [`Self::failure`].

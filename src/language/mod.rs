@@ -22,7 +22,7 @@ use std::fmt::Display;
 
 use crate::geometry::words;
 
-pub use numbers::{decimal_sign, localised, number, parsed, short, signed};
+pub use numbers::{decimal_sign, localised, number, parsed, short, signed, unbroken};
 pub use said::said;
 pub use table::Table;
 

@@ -35,6 +35,25 @@ pub fn localised(number: &str) -> String {
     }
 }
 
+/// Units that stay on the line of their number.
+const UNITS: [&str; 14] = ["%", "mm", "cm", "dm", "m", "in", "mm²", "cm²", "dm²", "m²", "s", "ms", "N", "°"];
+
+/// `text` with no-break spaces between numbers and units, for texts that are drawn in lines of any width.
+pub fn unbroken(text: &str) -> String {
+    let mut unbroken = String::with_capacity(text.len());
+    let mut rest = text;
+    while let Some((before, after)) = rest.split_once(' ') {
+        let ends = |c: char| c.is_whitespace() || ",;:.()".contains(c);
+        let word = after.split(ends).next().unwrap_or_default();
+        let is_value = before.ends_with(|c: char| c.is_ascii_digit()) && UNITS.contains(&word);
+        unbroken.push_str(before);
+        unbroken.push(if is_value { '\u{a0}' } else { ' ' });
+        rest = after;
+    }
+    unbroken.push_str(rest);
+    unbroken
+}
+
 /// Parses a number with a decimal point or a decimal comma, whatever the language; spaces are left out. None if it is no finite
 /// number, which one with two such signs is not.
 pub fn parsed(text: &str) -> Option<f64> {
@@ -66,6 +85,17 @@ mod tests {
         let all = || [short(12.5, 3), short(100.0, 0), short(100.0, 2), short(-0.001, 2), short(0.125, 3)];
         assert_eq!(all(), ["12.5", "100", "100", "0", "0.125"]);
         assert_eq!(shown_in(Table::german(), all), ["12,5", "100", "100", "0", "0,125"]);
+    }
+
+    #[test]
+    fn numbers_stay_on_the_line_of_their_units() {
+        let check = |text: &str, told: &str| {
+            assert_eq!(unbroken(&text.replace('_', " ")), told.replace('_', "\u{a0}"))
+        };
+        check("Tight: front near waist, +3.6_%", "Tight: front near waist, +3.6_%");
+        check("1 (+3,4_%), 12_mm. Then 3 mmm and 2 pieces", "1 (+3,4_%), 12_mm. Then 3 mmm and 2 pieces");
+        check(" 5  %", " 5  %");
+        check("", "");
     }
 
     #[test]

@@ -1,13 +1,15 @@
 //! Faults of a dressed garment, each with the pairs of marks near it, which a person can paint differently.
 
+use glam::DVec3;
 use serde::Serialize;
 
+use crate::body::{Surface, landmarks};
 use crate::cloth::{ClothState, EdgeMetric, FlatPiece, Garment};
 use crate::fit::{self, BodyIndex, Fallen, Report};
 use crate::geometry::words::{Value, Words, decimal, words};
 use crate::pattern::{Problem, ProblemKind};
 use crate::sim::source::GarmentSource;
-use crate::wrap::{Marks, PairStretch, stretches};
+use crate::wrap::{BodyMark, ClothMark, Marks, PairStretch, are_suggested, stretches};
 
 /// Most pairs of marks named for one fault.
 const MOST_PAIRS: usize = 3;
@@ -69,9 +71,10 @@ pub fn faults(
     let nearest = nearest_pairs(garment, &source.marks);
     let surface = body.surface();
     let lengths = stretches(&source.marks, surface, source.relax.offset * surface.scale());
+    let places = are_suggested(&source.marks, &source.pattern).then(|| places(source, surface));
     let fault = |(problem, spot): (Problem, fit::Spot)| {
         let marks = concerned(&spot.vertices(garment, cloth, body), &nearest, &lengths);
-        Fault { problem: told(problem, &marks), marks }
+        Fault { problem: told(problem, &marks, places.as_deref()), marks }
     };
     found.into_iter().map(fault).collect()
 }
@@ -88,20 +91,62 @@ fn told_fallen(fallen: Fallen, garment: &Garment) -> (Problem, fit::Spot) {
     (Problem { kind: ProblemKind::Dressing, place, words }, fit::Spot::Piece(fallen.piece))
 }
 
-fn told(problem: Problem, marks: &[Concerned]) -> Problem {
+/// `problem` with the marks near it: by their numbers, or by their `places` where the marks were suggested, since nobody knows numbers
+/// that were not painted.
+fn told(problem: Problem, marks: &[Concerned], places: Option<&[Place]>) -> Problem {
     if marks.is_empty() {
         return problem;
     }
     let each = marks.iter().map(|mark| {
         let percent = Value::Number(format!("{:+.1}", mark.stretch * 100.0));
-        words!("{n} ({percent} %)", n = mark.number, percent)
+        match places.and_then(|places| places.get(mark.number - 1)) {
+            None => words!("{n} ({percent} %)", n = mark.number, percent),
+            Some(Place { piece, near: None }) => words!("{piece} ({percent} %)", piece, percent),
+            Some(Place { piece, near: Some(place) }) => {
+                words!("{piece} near {place} ({percent} %)", piece, place, percent)
+            }
+        }
     });
     let all = Words::joined(each, ", ");
-    let nearest = match marks.len() {
-        1 => words!("nearest mark: {marks}", marks = all),
-        _ => words!("nearest marks: {marks}", marks = all),
+    let nearest = match (marks.len(), places.is_some()) {
+        (1, false) => words!("nearest mark: {marks}", marks = all),
+        (_, false) => words!("nearest marks: {marks}", marks = all),
+        (1, true) => words!("nearest suggested mark: {marks}", marks = all),
+        (_, true) => words!("nearest suggested marks: {marks}", marks = all),
     };
     Problem { words: problem.words.and("; ", nearest), ..problem }
+}
+
+/// Where a pair of marks is.
+struct Place {
+    /// Name of the piece.
+    piece: String,
+    /// The body's landmark nearest to the middle of the stroke; None for a body without landmarks.
+    near: Option<Words>,
+}
+
+/// Where each pair of marks is, in the order of their numbers. Of landmarks at the sides of a limb only the limb is named.
+fn places(source: &GarmentSource, surface: &Surface) -> Vec<Place> {
+    let landmarks = landmarks::found(&surface.mesh);
+    let named = landmarks.iter().flat_map(|found| found.iter()).filter(|(name, _)| !name.ends_with("_x"));
+    let named: Vec<(&str, DVec3)> = named.collect();
+    let place = |(cloth, body): (&ClothMark, &BodyMark)| {
+        let middle = body.points.get(body.points.len() / 2).copied();
+        let nearest = middle.and_then(|middle| {
+            let far = |place: &&(&str, DVec3)| place.1.distance(middle);
+            named.iter().min_by(|a, b| far(a).total_cmp(&far(b)))
+        });
+        Place {
+            piece: source
+                .pattern
+                .pieces
+                .get(&cloth.piece)
+                .map(|piece| piece.name.clone())
+                .unwrap_or_default(),
+            near: nearest.map(|(name, _)| Words::listed(name.replace('_', " "))),
+        }
+    };
+    source.marks.pairs().map(place).collect()
 }
 
 /// Number of the pair nearest to each vertex, by distance along the cloth and across seams; None where no path leads to a pair.
@@ -135,4 +180,35 @@ fn concerned(vertices: &[u32], nearest: &[Option<usize>], lengths: &[PairStretch
     let stretch = |number| lengths.iter().find(|l| l.number == number).map_or(0.0, PairStretch::stretch);
     let named = counts.into_iter().take(MOST_PAIRS);
     named.map(|(_, number)| Concerned { number, stretch: stretch(number) }).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn suggested_marks_are_told_by_their_places_and_painted_ones_by_their_numbers() {
+        let problem = || Problem {
+            kind: ProblemKind::Dressing,
+            place: words!("garment"),
+            words: words!("it still moves"),
+        };
+        let marks = [Concerned { number: 1, stretch: 0.034 }, Concerned { number: 2, stretch: -0.01 }];
+        let place = |piece: &str, near: Option<&str>| Place {
+            piece: piece.to_owned(),
+            near: near.map(Words::listed),
+        };
+        let places = [place("front", Some("waist front")), place("back", None)];
+        let check = |marks: &[Concerned], places: Option<&[Place]>, told_so: &str| {
+            assert_eq!(told(problem(), marks, places).words, told_so);
+        };
+        check(&marks, None, "it still moves; nearest marks: 1 (+3.4 %), 2 (-1.0 %)");
+        check(&marks[..1], None, "it still moves; nearest mark: 1 (+3.4 %)");
+        let suggested =
+            "it still moves; nearest suggested marks: front near waist front (+3.4 %), back (-1.0 %)";
+        check(&marks, Some(&places), suggested);
+        check(&[], Some(&places), "it still moves");
+        let one = "it still moves; nearest suggested mark: front near waist front (+3.4 %)";
+        check(&marks[..1], Some(&places), one);
+    }
 }

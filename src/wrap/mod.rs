@@ -20,4 +20,4 @@ pub use mark_error::{MarkError, mark_error};
 pub use marks::{BodyMark, ClothMark, ClothSide, MarkPlace, Marks, Tie};
 pub use placed::{AT_AN_EDGE, EDGE_SAMPLES, RUNS_ALONG};
 pub use roots::{PairStretch, stretches};
-pub use suggest::{ROUND_LIMBS, Stand, stand, suggested};
+pub use suggest::{ROUND_LIMBS, Stand, are_suggested, stand, suggested};

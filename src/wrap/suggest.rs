@@ -78,17 +78,25 @@ pub fn suggested(pattern: &Pattern, surface: &Surface, offset: f64) -> Marks {
         }
     }
     let mut marks = Marks::default();
-    for stroke in strokes {
-        let number = marks.cloth.len() as u32 + 1;
-        marks.cloth.push(ClothMark {
-            id: MarkId(pattern.next_id + 2 * number),
-            piece: stroke.panel,
-            side: ClothSide::Front,
-            points: stroke.cloth,
-        });
-        marks.body.push(BodyMark { id: MarkId(pattern.next_id + 2 * number + 1), points: stroke.body });
+    for (stroke, number) in strokes.into_iter().zip(1..) {
+        let [id, on_body] = ids(pattern, number);
+        let (piece, side) = (stroke.panel, ClothSide::Front);
+        marks.cloth.push(ClothMark { id, piece, side, points: stroke.cloth });
+        marks.body.push(BodyMark { id: on_body, points: stroke.body });
     }
     marks
+}
+
+/// Whether `marks` are those that [`suggested`] gives for `pattern`, which is told by their ids: nobody painted them.
+pub fn are_suggested(marks: &Marks, pattern: &Pattern) -> bool {
+    let mut pairs = marks.pairs().zip(1..).peekable();
+    pairs.peek().is_some() && pairs.all(|((cloth, body), number)| [cloth.id, body.id] == ids(pattern, number))
+}
+
+/// Ids of the suggested pair with this number, from 1: on the cloth, and on the body.
+fn ids(pattern: &Pattern, number: u32) -> [MarkId; 2] {
+    let first = pattern.next_id.wrapping_add(2 * number);
+    [MarkId(first), MarkId(first.wrapping_add(1))]
 }
 
 /// Height of a placed garment, and where it belongs on a body.

@@ -38,13 +38,16 @@ fn where_no_start_is_clean_the_exit_code_and_the_report_say_so() {
     let place = Place::new();
     place.save("narrow.toile", &placed_project(0.15, 0.15));
     let done = place.ends(1, "dress narrow.toile --out out --json");
-    assert!(done.err.contains("no start is without a fault: marks has "), "{done:#?}");
+    assert!(done.err.contains("no start is without a fault: the start by suggested marks has "), "{done:#?}");
     let report = place.json("out/report.json");
     let tried = report["start"]["tried"].as_array().expect("tried");
     let all: Vec<Vec<String>> = tried.iter().map(|tried| texts(&tried["faults"])).collect();
     assert!(all.iter().all(|faults| !faults.is_empty()) && all.contains(&faults(&report)), "{all:#?}");
     let told: Vec<&str> = done.err.lines().filter_map(|line| line.strip_prefix("toile: ")).collect();
     assert_eq!(told, faults(&report), "a line for each fault, once");
+    let [cause, tried, advice] = ["toile: ", "narrow.toile: note: no start", "narrow.toile: what to do: "]
+        .map(|words| done.err.lines().position(|line| line.starts_with(words)));
+    assert!(cause.is_some() && cause < tried && tried < advice, "{done:#?}");
     let plain = place.ends(1, "dress narrow.toile --out out");
     assert!(plain.out.starts_with("narrow: not dressed, ") && plain.out.lines().count() == 1, "{plain:#?}");
     assert!(faults(&report).iter().all(|words| !plain.out.contains(words)), "told once: {plain:#?}");

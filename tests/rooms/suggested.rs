@@ -9,7 +9,7 @@ use toile::body::{NamedPose, Surface, Trunk, mannequin};
 use toile::draft::{Design, Form, Kind, SIZES};
 use toile::pattern::{CutPattern, EdgeRef, Pattern, Piece, Seam, SpacePose};
 use toile::relax::RelaxSettings;
-use toile::wrap::{BodyMark, ClothMark, stand, stretches, suggested};
+use toile::wrap::{BodyMark, ClothMark, are_suggested, stand, stretches, suggested};
 
 /// Of the cloth above the skin, metres.
 const OFFSET: f64 = 0.005;
@@ -40,6 +40,9 @@ fn a_ring_leaves_room_for_the_panels_at_its_sides() {
     let offset = RelaxSettings::default().offset * surface.scale();
     let marks = suggested(&skirt(0.22), &surface, offset);
     assert_eq!(marks.pairs().count(), 4, "each half of front and back");
+    assert!(are_suggested(&marks, &skirt(0.22)));
+    assert!(!are_suggested(&marks.only(&[2, 1]), &skirt(0.22)), "others have other numbers");
+    assert!(!are_suggested(&toile::wrap::Marks::default(), &skirt(0.22)));
     for pair in stretches(&marks, &surface, offset) {
         assert!(pair.stretch().abs() < 0.08, "mark {}: {:+.3}", pair.number, pair.stretch());
     }

@@ -29,6 +29,12 @@ fn a_bow_is_tacked_to_the_selected_mark_and_taken_back() {
     key(&mut window, Modifiers::NONE, Key::Enter);
     let pattern = Arc::clone(&app(&window).session().document().pattern);
     assert_eq!((pattern.pieces.len(), pattern.seams.len()), (before + 5, 7));
+    // Only pieces in view have a node.
+    window.run_steps(2);
+    for piece in pattern.pieces.values() {
+        let label = format!("Piece {}", piece.name);
+        assert!(window.query_all_by_label(&label).next().is_some(), "{label} is out of view");
+    }
     let places: Vec<DVec2> = pattern.buttons.values().map(|tack| tack.button.at).collect();
     let middle = places.iter().sum::<DVec2>() / places.len() as f64;
     assert!(middle.distance(mark) < 1e-9, "{places:?} round {mark}");

@@ -82,6 +82,10 @@ fn colours_prints_and_colourways_are_chosen_in_the_side_panel() {
     window.get_by_label("Own colour").click();
     window.run_steps(3);
     assert!(dye(&window).colour.is_some());
+    let garment = pane(&window, "Body pane");
+    for dye in ["#faf8f4", "#a82a30"] {
+        assert!(!window.get_by_label(dye).rect().intersects(garment), "{dye} lets the garment be seen");
+    }
     window.get_by_label("#a82a30").click();
     window.run_steps(3);
     assert_eq!(dye(&window).colour, Some([168, 42, 48]));

@@ -202,12 +202,16 @@ impl App {
         }
     }
 
-    /// Selects the first of the pairs of marks with these numbers and turns the view to all of them.
+    /// Selects the first of the pairs of marks with these numbers and turns the view to all of them. Where none are painted they are
+    /// those that were suggested for the cloth, which cannot be selected.
     pub(in crate::ui) fn show_marks(&mut self, numbers: &[usize]) {
-        let marks = Arc::clone(&self.shown().document().marks);
+        let painted = Arc::clone(&self.shown().document().marks);
+        let suggested = self.shown().snapshot().source.as_ref().map(|source| Arc::clone(&source.marks));
+        let is_painted = painted.pairs().next().is_some();
+        let marks = suggested.filter(|_| !is_painted).unwrap_or(painted);
         let shown: Vec<&BodyMark> =
             numbers.iter().filter_map(|&n| marks.body.get(n.checked_sub(1)?)).collect();
-        self.selected = shown.first().map(|mark| mark.id);
+        self.selected = shown.first().map(|mark| mark.id).filter(|_| is_painted);
         let points: Vec<DVec3> = shown.iter().flat_map(|mark| mark.points.iter().copied()).collect();
         if let Some(surface) = self.shown().surface().cloned() {
             self.scene_pane.show(&points, &surface);

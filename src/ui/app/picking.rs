@@ -9,7 +9,7 @@ use crate::session::{Command, Document};
 use crate::sim::ClothPlace;
 use crate::ui::actions::Action;
 use crate::ui::app::App;
-use crate::ui::pattern_pane::edits;
+use crate::ui::pattern_pane::{Fit, edits};
 use crate::ui::selection::{Item, LineRef, Selection};
 
 /// The selection, and the pattern it refers to.
@@ -56,7 +56,7 @@ impl App {
         self.picks.spot = None;
     }
 
-    /// Applies `command` and selects the pieces, seams and internal lines that it adds.
+    /// Applies `command` and selects the pieces, seams and internal lines that it adds; pieces out of view are brought into it.
     pub(in crate::ui) fn apply_and_select(&mut self, command: Command) {
         let is_edit = matches!(command, Command::EditPattern { .. });
         let drawn_on = drawn_on(&command);
@@ -73,6 +73,8 @@ impl App {
             let count = |of: &Pattern, id: &PieceId| of.pieces.get(id).map_or(0, |piece| piece.lines.len());
             let more = drawn_on.into_iter().filter(|id| count(after, id) > count(&before, id));
             new.lines.extend(more.map(|piece| LineRef { piece, line: count(after, &piece) - 1 }));
+        } else {
+            self.pattern_pane.show = Some(Fit::Added);
         }
         if !new.is_empty() {
             self.picks = Picks { selection: new, spot: None, of: Arc::clone(after) };

@@ -10,4 +10,5 @@ mod reasons;
 
 pub(in crate::ui) use crate::language::{
     code, counted, decimal_sign, localised, number, parsed, said, say, short, show, signed, tr, translated,
+    unbroken,
 };

@@ -1,6 +1,6 @@
 //! Choosing a colour: a button in that colour, and the palette that it opens.
 
-use egui::Ui;
+use egui::{Popup, PopupCloseBehavior, RectAlign, Ui};
 
 use crate::render::Rgb;
 use crate::session::Command;
@@ -50,7 +50,7 @@ const DYES: [[u8; 3]; 32] = [
 pub fn colour_menu(ui: &mut Ui, name: &str, colour: Rgb, asks: &mut Asks, command: impl Fn(Rgb) -> Command) {
     let [r, g, b] = colour;
     let button = egui::Button::new("").min_size(SWATCH).fill(egui::Color32::from_rgb(r, g, b));
-    let (response, _) = open_menu(button).ui(ui, |ui| {
+    let response = panel_menu(ui, button, |ui| {
         let mut new = colour;
         colour_ui(ui, name, &mut new);
         if new != colour {
@@ -95,9 +95,20 @@ fn hex([r, g, b]: [u8; 3]) -> String {
     format!("#{r:02x}{g:02x}{b:02x}")
 }
 
-/// A menu that a click inside does not close.
-pub fn open_menu(button: egui::Button<'_>) -> egui::containers::menu::MenuButton<'_> {
-    let config = egui::containers::menu::MenuConfig::new()
-        .close_behavior(egui::PopupCloseBehavior::CloseOnClickOutside);
-    egui::containers::menu::MenuButton::from_button(button).config(config)
+/// A button that opens a menu which a click inside does not close. The menu covers the panel that the button is in, as wide as it, so
+/// that the panes beside it show what is changed.
+pub fn panel_menu(ui: &mut Ui, button: egui::Button<'_>, contents: impl FnOnce(&mut Ui)) -> egui::Response {
+    let response = ui.add(button);
+    let panel = ui.clip_rect().x_range();
+    Popup::menu(&response)
+        .anchor(egui::Rect::from_x_y_ranges(panel, response.rect.y_range()))
+        .align(RectAlign::BOTTOM_START)
+        .align_alternatives(&[RectAlign::TOP_START])
+        .close_behavior(PopupCloseBehavior::CloseOnClickOutside)
+        .show(|ui| {
+            let frame = egui::Frame::popup(ui.style()).total_margin().sum().x;
+            ui.set_width((panel.span() - frame).max(0.0));
+            contents(ui);
+        });
+    response
 }

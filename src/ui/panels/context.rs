@@ -8,6 +8,7 @@ use crate::session::Document;
 use crate::sim::{Fault, Snapshot};
 use crate::ui::actions::asks::{Ask, Asks};
 use crate::ui::actions::context::FrameContext;
+use crate::ui::language::unbroken;
 use crate::ui::look::theme::Palette;
 use crate::ui::pattern_pane::nests::{Nests, SizeView};
 use crate::ui::selection::Selection;
@@ -50,11 +51,11 @@ pub fn problem_row(
     ui.horizontal_top(|ui| {
         let (sign, _) = ui.allocate_exact_size(egui::vec2(12.0, 16.0), egui::Sense::hover());
         ui.painter().circle_filled(sign.center(), 4.0, ink);
-        let Some((ask, tip)) = shows else {
-            ui.add(egui::Label::new(words).wrap());
-            return;
-        };
-        let row = ui.add(egui::Label::new(words).wrap().sense(egui::Sense::click()));
+        let label = egui::Label::new(unbroken(words)).wrap();
+        let label = if shows.is_some() { label.sense(egui::Sense::click()) } else { label };
+        let row = ui.add(label);
+        row.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Label, true, words));
+        let Some((ask, tip)) = shows else { return };
         if row.on_hover_text(tip).on_hover_cursor(egui::CursorIcon::PointingHand).clicked() {
             asks.push(ask);
         }

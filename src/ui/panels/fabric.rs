@@ -10,9 +10,9 @@ use crate::session::{Artwork, Command, Dye, Motif, Print};
 use crate::ui::actions::Action;
 use crate::ui::actions::asks::{Ask, Asks};
 use crate::ui::language::fields::drag_value;
-use crate::ui::language::{counted, say, tr};
+use crate::ui::language::{counted, say, tr, unbroken};
 use crate::ui::panels::artwork::surface_ui;
-use crate::ui::panels::colours::{SWATCH, colour_ui, open_menu};
+use crate::ui::panels::colours::{SWATCH, colour_ui, panel_menu};
 use crate::ui::panels::context::PanelContext;
 use crate::ui::scenery::print_match::{PrintMatch, print_matches};
 
@@ -93,7 +93,7 @@ fn dye_menu(ui: &mut Ui, told: &PanelContext<'_>, piece: Option<PieceId>, name: 
     let button = egui::Button::new("").min_size(SWATCH).stroke(egui::Stroke::new(2.0, border));
     let layer = piece.and_then(|id| document.pattern.pieces.get(&id)).map_or(0, |piece| piece.layer);
     let button = button.fill(opaque(seen.unwrap_or_else(|| cloth_front(layer))));
-    let (response, _) = open_menu(button).ui(ui, |ui| {
+    let response = panel_menu(ui, button, |ui| {
         if let Some(dye) = dye_ui(ui, &document.artwork, own, seen, piece.is_none()) {
             asks.push(Ask::Drag(Command::SetDye { piece, dye }));
         }
@@ -125,7 +125,7 @@ fn dye_ui(ui: &mut Ui, artwork: &Artwork, own: Dye, seen: Option<[u8; 3]>, is_fo
         dye.print = has_print.then_some(FIRST_PRINT);
     }
     if let Some(print) = &mut dye.print {
-        ui.horizontal(|ui| {
+        ui.horizontal_wrapped(|ui| {
             for motif in Motif::ALL {
                 ui.selectable_value(&mut print.motif, motif, tr(motif.name()));
             }
@@ -169,7 +169,7 @@ fn colourways_ui(ui: &mut Ui, told: &PanelContext<'_>, asks: &mut Asks) {
         });
     });
     let keep = egui::Button::new(tr("Keep colourway…")).small();
-    let (response, _) = open_menu(keep).ui(ui, |ui| {
+    let response = panel_menu(ui, keep, |ui| {
         let mut name: String = ui.data(|data| data.get_temp(id)).unwrap_or_default();
         let field = egui::TextEdit::singleline(&mut name).hint_text(tr("Name"));
         let typed = ui.add(field.desired_width(WIDTH));
@@ -214,7 +214,8 @@ fn matches_ui(ui: &mut Ui, told: &PanelContext<'_>) {
             print = tr(motif.name()),
             mm = format!("{:.0}", offset * 1e3)
         );
-        ui.label(RichText::new(words).small());
+        let label = ui.label(RichText::new(unbroken(&words)).small());
+        label.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Label, true, &words));
     }
     if !meeting.is_empty() {
         let words = counted(meeting.len(), "Prints meet at 1 seam", "Prints meet at {n} seams");

@@ -8,7 +8,7 @@ use crate::pattern::edit::{PatternEdit, TrimLine};
 use crate::pattern::{Button, EdgeRef, Pattern, Piece, PiecePoint, Seam, Stretch, Zip, curve};
 use crate::session::Command;
 use crate::ui::actions::asks::{Ask, Asks};
-use crate::ui::language::{say, tr};
+use crate::ui::language::{say, tr, unbroken};
 use crate::ui::look::signs::{Sign, sign_button};
 use crate::ui::panels::colours::colour_menu;
 use crate::ui::panels::context::PanelContext;
@@ -102,7 +102,8 @@ pub fn fastenings_ui(ui: &mut egui::Ui, told: &PanelContext<'_>, asks: &mut Asks
         let open = seam.zip.map_or(0.0, |zip| zip.open);
         let percent = format!("{:.0}", open * 100.0);
         let words = say!("Zip, {seam}: {percent} % open", seam = words, percent);
-        ui.label(RichText::new(words).size(12.5));
+        let label = ui.label(RichText::new(unbroken(&words)).size(12.5));
+        label.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Label, true, &words));
         ui.push_id(id, |ui| zip_ui(ui, told, *id, seam, asks));
     }
 }

@@ -228,7 +228,7 @@ fn stretch_ui(ui: &mut egui::Ui, told: &PanelContext<'_>, pair: &PairStretch) {
         return;
     }
     let percent = format!("{} %", signed(pair.stretch() * 100.0, 1));
-    let text = RichText::new(&percent).size(12.5);
+    let text = RichText::new(language::unbroken(&percent)).size(12.5);
     let ink = if pair.is_large() { told.palette.error } else { told.palette.weak };
     let text = if pair.is_large() { text.strong().color(ink) } else { text.color(ink) };
     let shown = ui.label(text).on_hover_text(say!(

@@ -1,7 +1,9 @@
 //! Draws pieces with their contents, and the threads between sewn edges.
 
+use std::f32::consts::FRAC_PI_2;
 use std::sync::Arc;
 
+use egui::epaint::TextShape;
 use egui::{Color32, FontId, Galley, Pos2, Rect, Shape, Stroke, Vec2, pos2};
 use glam::DVec2;
 
@@ -35,9 +37,16 @@ pub const EQUAL: f64 = 0.01;
 /// Room round a name on its patch, both sides together, points.
 const NAME_ROOM: Vec2 = Vec2::new(10.0, 3.0);
 
+/// Length on the screen of the shortest piece that has its name, points.
+const SHORTEST_NAMED: f32 = 26.0;
+/// Breadth on the screen of the narrowest piece that has its name, points.
+const NARROWEST_NAMED: f32 = 5.0;
+
 /// The name of a piece, placed on the screen.
 pub struct Name {
     patch: Rect,
+    /// Whether it reads upwards.
+    is_upright: bool,
     /// Colour of the patch.
     fill: Color32,
     text: Arc<Galley>,
@@ -66,9 +75,8 @@ impl Drawing<'_> {
 
     /// Whether a part of the piece's bounding box is in the pane.
     pub fn is_in_view(&self, piece: &Piece, shape: &PieceShape) -> bool {
-        let corners = shape.corners().map(|p| self.place(piece.pose.plane_from_piece(p)));
         let room = (piece.allowance * self.view.scale) as f32 + 8.0;
-        Rect::from_points(&corners).expand(room).intersects(self.pane)
+        self.bounds_on_screen(piece, shape).expand(room).intersects(self.pane)
     }
 
     /// Fill of a piece: in the colour of its cloth, or of its layer.
@@ -154,45 +162,86 @@ impl Drawing<'_> {
     }
 
     /// The names of the pieces where they cover no other text: in the middle of the piece, else above or below. Selected pieces and
-    /// the one under the pointer come first, with their whole names; a name without enough room is shortened, and one without a
-    /// place is left out.
+    /// the one under the pointer come first, with their whole names. Any other name is as long as its piece permits, upright on a narrow
+    /// one, and covers no other piece; one without a place is left out.
     pub fn placed_names(&self, table: &Table<'_>, labels: &mut Labels) -> Vec<Name> {
-        let size = (self.view.scale * 0.028).clamp(10.5, 15.0) as f32;
         let stands_out = |id| {
             let item = Item::Piece(id);
             table.laid.selection.has(item) || table.laid.highlight == Some(item)
         };
         let in_view = table.seen().filter(|(_, piece, shape)| self.is_in_view(piece, shape));
         let (first, rest): (Vec<_>, Vec<_>) = in_view.partition(|(id, ..)| stands_out(*id));
+        let boxes: Vec<(PieceId, Rect)> = first
+            .iter()
+            .chain(&rest)
+            .map(|&(id, piece, shape)| (id, self.bounds_on_screen(piece, shape)))
+            .collect();
         let name = |(id, piece, shape): (PieceId, &Piece, &PieceShape)| {
-            let front = front_is_seen(piece, shape);
-            let fill = self.fill(table, (id, piece), front);
-            let corners = shape.corners().map(|p| self.place(piece.pose.plane_from_piece(p)));
-            let bounds = Rect::from_points(&corners);
-            let (words, ink) = (words_on(piece, front), self.palette.name_on(fill));
-            let mut job = egui::text::LayoutJob::simple_singleline(words, FontId::proportional(size), ink);
-            if !stands_out(id) {
-                job.wrap = egui::text::TextWrapping::truncate_at_width((bounds.width() * 1.15).max(26.0));
-            }
-            let text = self.painter.layout_job(job);
+            let fill = self.fill(table, (id, piece), front_is_seen(piece, shape));
+            let (text, is_upright) = self.name_text(piece, shape, fill, stands_out(id))?;
+            let across = text.size().y + NAME_ROOM.y + 1.0;
+            let lying = text.size() + NAME_ROOM;
             let middle = self.place(piece.pose.plane_from_piece(shape.middle));
-            let patch = Rect::from_center_size(middle, text.size() + NAME_ROOM);
+            let size = if is_upright { lying.yx() } else { lying };
+            let patch = Rect::from_center_size(middle, size);
             let is_on = |place: &Rect| {
                 place == &patch || table.piece_at(table.at(place.center())).is_some_and(|(at, _)| at == id)
             };
             let steps = [0.0, -1.0, 1.0, -2.0, 2.0, -3.0, 3.0, -5.0, 5.0];
-            let moved = steps.map(|step| patch.translate(Vec2::Y * (step * (patch.height() + 1.0))));
-            let places: Vec<Rect> = moved.into_iter().filter(is_on).collect();
-            Some(Name { patch: labels.take(&places)?, fill, text })
+            let places: Vec<Rect> = steps
+                .map(|step| patch.translate(Vec2::Y * (step * across)))
+                .into_iter()
+                .filter(is_on)
+                .filter(|place| stands_out(id) || !covers_other(table, id, &boxes, *place))
+                .collect();
+            Some(Name { patch: labels.take(&places)?, is_upright, fill, text })
         };
         first.into_iter().chain(rest).filter_map(name).collect()
     }
 
+    /// The name of a piece as long as there is room, and whether it is upright. One that stands out is whole and lies. None where the
+    /// piece is too small on the screen for its name.
+    fn name_text(
+        &self,
+        piece: &Piece,
+        shape: &PieceShape,
+        fill: Color32,
+        stands_out: bool,
+    ) -> Option<(Arc<Galley>, bool)> {
+        let size = (self.view.scale * 0.028).clamp(10.5, 15.0) as f32;
+        let words = words_on(piece, front_is_seen(piece, shape));
+        let ink = self.palette.name_on(fill);
+        let mut job = egui::text::LayoutJob::simple_singleline(words, FontId::proportional(size), ink);
+        let whole = self.painter.layout_job(job.clone());
+        if stands_out {
+            return Some((whole, false));
+        }
+        let bounds = self.bounds_on_screen(piece, shape).size();
+        let is_upright = whole.size().x + NAME_ROOM.x > bounds.x && bounds.y > bounds.x;
+        let long = if is_upright { bounds.y } else { bounds.x };
+        if long < SHORTEST_NAMED || bounds.min_elem() < NARROWEST_NAMED {
+            return None;
+        }
+        job.wrap = egui::text::TextWrapping::truncate_at_width(long - NAME_ROOM.x);
+        Some((self.painter.layout_job(job), is_upright))
+    }
+
+    /// The bounding box of a piece on the screen.
+    fn bounds_on_screen(&self, piece: &Piece, shape: &PieceShape) -> Rect {
+        Rect::from_points(&shape.corners().map(|p| self.place(piece.pose.plane_from_piece(p))))
+    }
+
     /// Draws names on a patch of the piece's colour, so that marks do not run through them.
     pub fn names(&self, names: Vec<Name>) {
-        for Name { patch, fill, text } in names {
+        for Name { patch, is_upright, fill, text } in names {
             self.painter.rect_filled(patch, 5.0, fill.gamma_multiply(0.88));
-            self.painter.galley(patch.min + NAME_ROOM / 2.0, text, self.palette.name_on(fill));
+            let ink = self.palette.name_on(fill);
+            if is_upright {
+                let from = patch.left_bottom() + Vec2::new(NAME_ROOM.y, -NAME_ROOM.x) / 2.0;
+                self.painter.add(TextShape::new(from, text, ink).with_angle(-FRAC_PI_2));
+            } else {
+                self.painter.galley(patch.min + NAME_ROOM / 2.0, text, ink);
+            }
         }
     }
 
@@ -358,6 +407,23 @@ pub fn badge_place(side: &[DVec2]) -> Option<DVec2> {
         0 => return None,
         n if n % 2 == 1 => side[middle],
         _ => side[middle - 1].midpoint(side[middle]),
+    })
+}
+
+/// Whether a name of the piece `id` at `place` would cover another piece. `boxes` has the bounding boxes of all pieces in view.
+fn covers_other(table: &Table<'_>, id: PieceId, boxes: &[(PieceId, Rect)], place: Rect) -> bool {
+    let text = place.shrink2(NAME_ROOM / 2.0);
+    let border = [0.0, 0.25, 0.5, 0.75, 1.0].into_iter().flat_map(|share| {
+        let along = text.min + share * text.size();
+        match text.width() > text.height() {
+            true => [pos2(along.x, text.top()), pos2(along.x, text.bottom())],
+            false => [pos2(text.left(), along.y), pos2(text.right(), along.y)],
+        }
+    });
+    let border: Vec<DVec2> = border.map(|p| table.at(p)).collect();
+    boxes.iter().filter(|(other, bounds)| *other != id && bounds.intersects(text)).any(|(other, _)| {
+        let Some((piece, shape)) = table.piece(*other) else { return false };
+        border.iter().any(|&p| shape.contains(piece.pose.piece_from_plane(p)))
     })
 }
 

@@ -70,6 +70,8 @@ const CURSOR_STEPS: f64 = 10.0;
 pub enum Fit {
     All,
     Selection,
+    /// The selected pieces, where the middle of one is out of view.
+    Added,
     TrueSize,
 }
 
@@ -315,7 +317,8 @@ impl PatternPane {
         self.fitted = self.fitted.and_then(|(_, left)| Some((pane, left.checked_sub(1)?)));
         let show = self.show.take().or(is_due.then_some(Fit::All));
         match show {
-            Some(Fit::All) => self.view.fit(pane, pattern),
+            Some(Fit::Added) if !is_due => self.reveal_selected(laid, pane),
+            Some(Fit::All | Fit::Added) => self.view.fit(pane, pattern),
             Some(Fit::Selection) => {
                 let touched = laid.selection.pieces_touched();
                 match self.table(laid, pane).bounds(touched.into_iter()) {
@@ -325,6 +328,20 @@ impl PatternPane {
             }
             Some(Fit::TrueSize) => self.view.true_size(laid.points_per_metre),
             None => {}
+        }
+    }
+
+    /// Brings all selected pieces into view where the middle of one is out of it. A piece that is drawn half in view does not move it.
+    fn reveal_selected(&mut self, laid: &Laid<'_>, pane: Rect) {
+        let pieces = laid.selection.pieces_touched();
+        let table = self.table(laid, pane);
+        let is_out = |id| {
+            let middle = table.bounds(std::iter::once(id)).map(|[lower, upper]| lower.midpoint(upper));
+            middle.is_some_and(|p| !pane.contains(self.view.screen_from_table(pane, p)))
+        };
+        let is_any_out = pieces.iter().any(|&id| is_out(id));
+        if let Some(bounds) = table.bounds(pieces.into_iter()).filter(|_| is_any_out) {
+            self.view.reveal(pane, bounds);
         }
     }
 

@@ -10,6 +10,9 @@ const CLOSEST: f64 = 20_000.0;
 /// Smallest scale, screen points per metre.
 const FARTHEST: f64 = 20.0;
 
+/// Room between what is framed and the border of the pane, points.
+const ROOM: f32 = 28.0;
+
 /// The mapping from table to screen; y points up on the table and down on the screen.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct TableView {
@@ -59,9 +62,20 @@ impl TableView {
     /// Frames everything between two corners of the table.
     pub fn fit_box(&mut self, pane: Rect, [lower, upper]: [DVec2; 2]) {
         let size = (upper - lower).max(DVec2::splat(0.05));
-        let room = pane.shrink(28.0).size().max(Vec2::splat(20.0));
+        let room = pane.shrink(ROOM).size().max(Vec2::splat(20.0));
         self.scale = (f64::from(room.x) / size.x).min(f64::from(room.y) / size.y).clamp(FARTHEST, CLOSEST);
         self.centre = (lower + upper) / 2.0;
+    }
+
+    /// Brings everything between two corners of the table into view: by the shortest way at the present scale where there is room, else
+    /// by framing it with what is seen already.
+    pub fn reveal(&mut self, pane: Rect, [lower, upper]: [DVec2; 2]) {
+        let (from, to) = self.seen(pane.shrink(ROOM));
+        if (upper - lower).cmple(to - from).all() {
+            self.centre += (upper - to).max(DVec2::ZERO) + (lower - from).min(DVec2::ZERO);
+        } else {
+            self.fit_box(pane, [lower.min(from), upper.max(to)]);
+        }
     }
 
     /// Shows the pattern at true size on a screen with this many points per metre.
@@ -108,6 +122,22 @@ mod tests {
         assert!((view.table_from_screen(PANE, at) - p).length() < 1e-9);
         view.pan(Vec2::new(5.0, -3.0));
         assert!((view.screen_from_table(PANE, p) - (at + Vec2::new(5.0, -3.0))).length() < 1e-3);
+    }
+
+    #[test]
+    fn what_is_revealed_is_in_view_and_the_scale_stays_where_there_is_room() {
+        let start = TableView { centre: DVec2::ZERO, scale: 400.0 };
+        let check = |lower: (f64, f64), upper: (f64, f64), keeps_scale: bool| {
+            let (bounds, mut view) = ([lower, upper].map(DVec2::from), start);
+            view.reveal(PANE, bounds);
+            assert!(bounds.iter().all(|&p| PANE.contains(view.screen_from_table(PANE, p))), "{view:?}");
+            assert_eq!(view.scale == start.scale, keeps_scale, "{view:?}");
+            view
+        };
+        assert_eq!(check((-0.1, -0.1), (0.1, 0.1), true), start, "it is in view already");
+        assert_eq!(check((0.6, 0.0), (0.9, 0.2), true).centre.y, 0.0, "moved along one axis alone");
+        let far = check((5.0, 0.0), (7.0, 1.0), false);
+        assert!(PANE.contains(far.screen_from_table(PANE, DVec2::ZERO)), "what was seen stays in view");
     }
 
     #[test]

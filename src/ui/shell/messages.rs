@@ -4,7 +4,7 @@ use std::time::{Duration, Instant};
 
 use egui::{Align2, Area, Color32, Frame, Id, Order, Stroke};
 
-use crate::ui::language::{say, tr};
+use crate::ui::language::{say, tr, unbroken};
 use crate::ui::look::theme::Palette;
 
 /// Time that a message which is no error is shown.
@@ -138,8 +138,10 @@ fn message_ui(ui: &mut egui::Ui, message: &Message, palette: &Palette) -> bool {
         .show(ui, |ui| {
             ui.horizontal_top(|ui| {
                 let close = ui.small_button("×").on_hover_text(tr("Close this message"));
-                let text = egui::RichText::new(&message.words);
-                ui.add(egui::Label::new(if message.is_error { text.color(edge) } else { text }).wrap());
+                let text = egui::RichText::new(unbroken(&message.words));
+                let label = egui::Label::new(if message.is_error { text.color(edge) } else { text }).wrap();
+                let words = &message.words;
+                ui.add(label).widget_info(|| egui::WidgetInfo::labeled(egui::Role::Label, true, words));
                 close.clicked()
             })
             .inner

@@ -284,11 +284,9 @@ fn a_wrinkle_is_in_the_menu_for_lines_inside_pieces() {
     assert!(window.query_by_role_and_label(egui::accesskit::Role::CheckBox, "Wrinkle").is_none());
 }
 
-/// The texts on the table of `sample` that name a piece or an angle of a fold line, and their places.
-fn texts_on_table(sample: toile::session::samples::Sample) -> (Vec<(String, egui::Rect)>, Vec<String>) {
-    let mut window = crate::window_on(sample.project(&toile::body::mannequin::default()), None);
-    window.run_steps(4);
-    let names: Vec<String> = pattern(&window).pieces.values().map(|piece| piece.name.clone()).collect();
+/// The texts on the table that name a piece or an angle of a fold line, and their places.
+fn texts_on_table(window: &Window) -> Vec<(String, egui::Rect)> {
+    let names: Vec<String> = pattern(window).pieces.values().map(|piece| piece.name.clone()).collect();
     let pane = window.get_by_label("Pattern pane").rect();
     let on_table = window.output().shapes.iter().filter(|shape| {
         let clip = shape.clip_rect;
@@ -300,20 +298,65 @@ fn texts_on_table(sample: toile::session::samples::Sample) -> (Vec<(String, egui
         let is_label = words.ends_with('°') || names.iter().any(|name| words.starts_with(name.as_str()));
         is_label.then(|| (words, shape.shape.visual_bounding_rect()))
     });
-    (texts.collect(), names)
+    texts.collect()
+}
+
+fn sample_window(sample: toile::session::samples::Sample) -> Window {
+    let mut window = crate::window_on(sample.project(&toile::body::mannequin::default()), None);
+    window.run_steps(4);
+    window
 }
 
 #[test]
 fn names_and_angles_on_narrow_pieces_do_not_cover_each_other() {
     use toile::session::samples::Sample;
     for sample in [Sample::PleatedSkirt, Sample::Coat, Sample::Tshirt] {
-        let (texts, names) = texts_on_table(sample);
+        let window = sample_window(sample);
+        let (texts, pieces) = (texts_on_table(&window), pattern(&window).pieces.len());
         for (i, (words, place)) in texts.iter().enumerate() {
             for (other, taken) in &texts[..i] {
                 assert!(!place.intersects(*taken), "{sample:?}: {words} covers {other}");
             }
         }
         let named = texts.iter().filter(|(words, _)| !words.ends_with('°')).count();
-        assert!(2 * named >= names.len(), "{sample:?}: {named} of {} pieces are named", names.len());
+        assert!(2 * named >= pieces, "{sample:?}: {named} of {pieces} pieces are named");
     }
+}
+
+#[test]
+fn names_are_no_longer_than_their_pieces_and_cover_no_other_piece() {
+    use toile::session::samples::Sample;
+    for sample in [Sample::Shirt, Sample::CampShirt, Sample::PleatedSkirt] {
+        let window = sample_window(sample);
+        let on_screen = |piece: &toile::pattern::Piece| {
+            let outline = piece.flattened(1e-3).into_iter();
+            let placed = outline.map(|p| app(&window).on_screen(piece.pose.plane_from_piece(p)));
+            placed.map(|p| p.expect("it was drawn")).collect::<Vec<egui::Pos2>>()
+        };
+        let names = texts_on_table(&window);
+        for piece in pattern(&window).pieces.values() {
+            let outline = on_screen(piece);
+            let bounds = egui::Rect::from_points(&outline);
+            for (words, place) in names.iter().filter(|(words, _)| !words.ends_with('°')) {
+                let words_of_piece = words.split(" · ").next().unwrap_or_default();
+                if words_of_piece != piece.name {
+                    assert!(!is_in(&outline, place.center()), "{sample:?}: {words} is on {}", piece.name);
+                } else if place.width() > place.height() {
+                    assert!(place.width() <= bounds.width(), "{sample:?}: {words} is longer");
+                } else {
+                    assert!(place.height() <= bounds.height(), "{sample:?}: {words} is longer");
+                }
+            }
+        }
+    }
+}
+
+/// Whether `p` is in a closed polygon: whether a ray from it crosses an odd number of sides.
+fn is_in(polygon: &[egui::Pos2], p: egui::Pos2) -> bool {
+    let next = polygon.iter().cycle().skip(1);
+    let crossed = polygon
+        .iter()
+        .zip(next)
+        .filter(|(a, b)| (a.y > p.y) != (b.y > p.y) && p.x < a.x + (p.y - a.y) / (b.y - a.y) * (b.x - a.x));
+    crossed.count() % 2 == 1
 }
