@@ -69,6 +69,8 @@ pub struct Report {
 struct StartReport {
     taken: Start,
     draped: bool,
+    #[serde(skip_serializing_if = "std::ops::Not::not")]
+    as_built: bool,
     tried: Vec<TriedReport>,
 }
 
@@ -88,6 +90,7 @@ impl StartReport {
         Self {
             taken: started.taken().start,
             draped: started.taken().draped,
+            as_built: started.taken().as_built,
             tried: tried.map(|(tried, seconds)| TriedReport { tried, seconds }).collect(),
         }
     }

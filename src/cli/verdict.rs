@@ -60,6 +60,8 @@ pub struct Times {
 struct TakenStart {
     taken: Start,
     draped: bool,
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    as_built: bool,
 }
 
 /// A fault without its list of marks, which its message names.
@@ -152,16 +154,18 @@ impl Verdict {
         let millimetres = self.mark_error.max * 1000.0;
         let start = match &self.start {
             Some(TakenStart { taken: Start::Placement, .. }) => ", sewn from placement".to_owned(),
-            Some(TakenStart { taken: Start::Marks, draped: true }) => {
+            Some(TakenStart { taken: Start::Marks, draped: true, .. }) => {
                 ", by suggested marks, draped".to_owned()
             }
-            Some(TakenStart { taken: Start::Marks, draped: false }) => ", by suggested marks".to_owned(),
+            Some(TakenStart { taken: Start::Marks, .. }) => ", by suggested marks".to_owned(),
             None if self.mark_error.points > 0 => format!(", marks met within {millimetres:.1} mm"),
             None => String::new(),
         };
+        let carried = self.start.as_ref().filter(|start| start.as_built);
+        let carried = carried.map_or("", |_| ", carried from the built pose");
         let (triangles, percent) = (self.triangles, self.strain.p99 * 100.0);
         let seconds = self.times.seconds;
-        format!("{triangles} triangles, strain p99 {percent:.1} %{tight}{start}, {seconds:.2} s")
+        format!("{triangles} triangles, strain p99 {percent:.1} %{tight}{start}{carried}, {seconds:.2} s")
     }
 }
 

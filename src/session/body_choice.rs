@@ -35,6 +35,14 @@ impl BodyChoice {
         })
     }
 
+    /// The mannequin in the pose that it is built in. None where it is in that pose, and for a body from a file.
+    pub fn as_built(&self) -> Option<Self> {
+        match self {
+            Self::Posed { measurements, .. } => Some(Self::Mannequin(*measurements)),
+            Self::Mannequin(_) | Self::Imported { .. } => None,
+        }
+    }
+
     /// The mannequin of this body in a named pose. None for a body from a file, and for invalid measurements.
     pub fn in_named_pose(&self, pose: NamedPose) -> Option<Self> {
         let figure = mannequin(&self.measurements()?).ok()?;

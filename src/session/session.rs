@@ -383,7 +383,9 @@ impl Session {
             ClothChange::Dress(choice) => {
                 let (source, body) = self.garment_source()?;
                 let fabrics = drape_source(&edit.document)?;
-                Some(RequestKind::Dress { source, body, fabrics, choice })
+                let built =
+                    edit.document.body.as_built().map(|built| self.bodies.surface(&built)).transpose()?;
+                Some(RequestKind::Dress { source, body, built, fabrics, choice })
             }
             ClothChange::SetDraping(on) => {
                 Some(RequestKind::SetDraping { on, source: drape_source(&edit.document)? })

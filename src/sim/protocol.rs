@@ -76,7 +76,14 @@ pub enum RequestKind {
     Sew { source: Arc<GarmentSource>, body: Arc<Surface>, fabrics: Arc<DrapeSource> },
     /// Build the garment and try the starts that `choice` allows, one after the other, until one has no fault. Dragging, draping
     /// or wrapping the cloth meanwhile ends this, and the cloth stays as it is.
-    Dress { source: Arc<GarmentSource>, body: Arc<Surface>, fabrics: Arc<DrapeSource>, choice: StartChoice },
+    Dress {
+        source: Arc<GarmentSource>,
+        body: Arc<Surface>,
+        /// The mannequin in the pose that it is built in, where it has another.
+        built: Option<Arc<Surface>>,
+        fabrics: Arc<DrapeSource>,
+        choice: StartChoice,
+    },
     /// Change the fabrics of draped cloth.
     SetFabrics(Arc<DrapeSource>),
     /// Set which pieces are frozen or deactivated; all others are active.

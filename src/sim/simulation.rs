@@ -14,7 +14,7 @@ use crate::sim::start::Start;
 use crate::sim::stats::Stats;
 use crate::sim::world::World;
 use crate::sim::world::posed::Then;
-use crate::sim::world::trials::Judged;
+use crate::sim::world::trials::{BodyAndPose, Judged};
 use crate::wrap::Phase;
 
 /// Faults and tight places found on cloth at rest.
@@ -281,8 +281,8 @@ impl Simulation {
             RequestKind::Sew { source, body, fabrics } => {
                 self.set_world(World::sewn(source, body, fabrics)?);
             }
-            RequestKind::Dress { source, body, fabrics, choice } => {
-                self.set_world(World::dressed(source, body, fabrics, choice)?);
+            RequestKind::Dress { source, body, built, fabrics, choice } => {
+                self.set_world(World::dressed(source, BodyAndPose { body, built }, fabrics, choice)?);
             }
             RequestKind::SetFabrics(source) => self.world.set_fabrics(source),
             RequestKind::SetActivities(activities) => self.world.set_activities(&activities),

@@ -250,7 +250,7 @@ fn stages() -> Vec<(&'static str, Simulation)> {
         ("sewing", RequestKind::Sew { source: source.clone(), body: ball(), fabrics: fabrics.clone() }),
         (
             "trying starts",
-            RequestKind::Dress { source, body: ball(), fabrics, choice: StartChoice::default() },
+            RequestKind::Dress { source, body: ball(), built: None, fabrics, choice: StartChoice::default() },
         ),
     ];
     for (name, kind) in all {

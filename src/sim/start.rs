@@ -62,6 +62,9 @@ pub struct Tried {
     /// Whether it was tried in a mesh a little finer than the garment's own, as the same starts had few faults before.
     #[serde(skip_serializing_if = "std::ops::Not::not")]
     pub finer: bool,
+    /// Whether the mannequin was dressed in the pose that it is built in, and the garment carried from there to its pose.
+    #[serde(skip_serializing_if = "std::ops::Not::not")]
+    pub as_built: bool,
     /// Faults, in words.
     pub faults: Vec<Words>,
     /// Number of places with faults.
@@ -85,7 +88,9 @@ impl std::fmt::Display for Tried {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         let draped = if self.draped && self.start == Start::Marks { ", draped" } else { "" };
         let finer = if self.finer { ", in a finer mesh" } else { "" };
-        write!(f, "{}{draped}{finer}", self.start)
+        let as_built =
+            if self.as_built { ", carried from the pose that the mannequin is built in" } else { "" };
+        write!(f, "{}{draped}{finer}{as_built}", self.start)
     }
 }
 

@@ -84,7 +84,9 @@ fn colours_prints_and_colourways_are_chosen_in_the_side_panel() {
     assert!(dye(&window).colour.is_some());
     let garment = pane(&window, "Body pane");
     for dye in ["#faf8f4", "#a82a30"] {
-        assert!(!window.get_by_label(dye).rect().intersects(garment), "{dye} lets the garment be seen");
+        let swatch = window.get_by_label(dye).rect();
+        let middle = garment.shrink2(Vec2::new(garment.width() / 4.0, 0.0));
+        assert!(swatch.left() > middle.right(), "{dye} at {swatch} covers the middle of {garment}");
     }
     window.get_by_label("#a82a30").click();
     window.run_steps(3);

@@ -34,7 +34,7 @@ impl World {
         let choice = StartChoice { only: Some(Start::Placement), draped: true };
         match coarse_edge(&source) {
             None => Self::placed(source, body, fabrics),
-            Some(_) => Self::dressed(source, body, fabrics, choice),
+            Some(_) => Self::dressed(source, body.into(), fabrics, choice),
         }
     }
 

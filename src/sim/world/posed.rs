@@ -56,6 +56,11 @@ impl Then {
 }
 
 impl Posing {
+    /// Gives the pieces the placements that they have in `source`.
+    pub(in crate::sim) fn place_as(&mut self, source: &GarmentSource) {
+        Arc::make_mut(&mut self.source).pattern = Arc::clone(&source.pattern);
+    }
+
     /// Progress, 0..=1.
     pub fn progress(&self) -> f64 {
         self.change.progress()

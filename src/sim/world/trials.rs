@@ -2,17 +2,19 @@
 
 use std::sync::Arc;
 
-use crate::body::{Surface, landmarks};
+use crate::body::{Surface, bones, landmarks};
 use crate::cloth::Skip;
 use crate::fit::{BodyIndex, Report, TightPlace, measure, tight_places, tops};
 use crate::geometry::words::{Words, words};
-use crate::place::Turned;
+use crate::pattern::Pattern;
+use crate::place::{Turned, onto};
 use crate::sim::fault::{Fault, Lies, faults};
 use crate::sim::source::DrapeSource;
 use crate::sim::source::GarmentSource;
 use crate::sim::start::{Start, StartChoice, Started, Tried};
 use crate::sim::world::World;
 use crate::sim::world::coarse::coarse_edge;
+use crate::sim::world::posed::Then;
 use crate::wrap::suggested;
 
 /// Ticks after which a start is judged even if its cloth still moves, unless it is the only one.
@@ -30,6 +32,19 @@ pub(in crate::sim) struct Judged {
     pub is_astray: bool,
 }
 
+/// A body, and the same in the pose that it is built in; None: it has no other pose.
+#[derive(Clone, Debug)]
+pub struct BodyAndPose {
+    pub body: Arc<Surface>,
+    pub built: Option<Arc<Surface>>,
+}
+
+impl From<Arc<Surface>> for BodyAndPose {
+    fn from(body: Arc<Surface>) -> Self {
+        Self { body, built: None }
+    }
+}
+
 /// Starts being tried.
 #[derive(Clone, Debug)]
 pub struct Trials {
@@ -42,6 +57,12 @@ pub struct Trials {
     left: Vec<Start>,
     /// Whether they are tried once more, in a finer mesh.
     finer: bool,
+    /// The body in the pose that it is built in. None: that is the pose that it has, or marks lead the garment to where it is.
+    built: Option<Arc<Surface>>,
+    /// Whether they are tried once more on that body.
+    as_built: bool,
+    /// Whether the cloth of the present start is carried from there to the body's pose, or was.
+    carrying: bool,
     now: Start,
     /// Whether [`Trials`] is draping the start, as it does after the wrap of [`Start::Marks`].
     draping: bool,
@@ -88,6 +109,17 @@ impl Trials {
         (self.now, self.draping || self.now == Start::Placement)
     }
 
+    /// Whether the present start is still on the body as it is built.
+    fn is_on_built(&self) -> bool {
+        self.as_built && !self.carrying
+    }
+
+    /// A result of the present start.
+    fn result(&self, faults: Vec<Words>, places: usize) -> Tried {
+        let (draped, finer, ticks) = (self.now().1, self.finer, self.ticks);
+        Tried { start: self.now, draped, finer, as_built: self.as_built, faults, places, ticks }
+    }
+
     /// Whether the present start has used up its time. An only start has as much as it needs, for example to sew several layers.
     fn is_out_of_time(&self) -> bool {
         let is_last = self.best.is_none() && self.left.is_empty();
@@ -103,10 +135,12 @@ impl Trials {
         }
     }
 
-    /// Records the result of the present start, whose cloth is in `world`.
+    /// Records the result of the present start, whose cloth is in `world`: it can be taken, unless the body has another pose there.
     fn note(&mut self, world: World, faults: Vec<Words>, places: usize) {
-        let (draped, finer, ticks) = (self.now().1, self.finer, self.ticks);
-        let tried = Tried { start: self.now, draped, finer, faults, places, ticks };
+        let tried = self.result(faults, places);
+        if self.is_on_built() {
+            return self.tried.push(tried);
+        }
         let is_clean = self.is_clean(&tried);
         let rank = |tried: &Tried| {
             let is_wanted = tried.draped || !self.choice.draped;
@@ -145,6 +179,15 @@ impl Trials {
         Arc::make_mut(&mut self.source).edge_length *= FINER;
     }
 
+    /// Begins all starts again on the body as it is built. False where it has no other pose, or where that was tried.
+    fn begin_as_built(&mut self) -> bool {
+        let begins = self.built.is_some() && !self.as_built;
+        if begins {
+            (self.as_built, self.left) = (true, self.order.clone());
+        }
+        begins
+    }
+
     /// Whether the best result has no fault.
     fn has_clean(&self) -> bool {
         self.best.as_ref().is_some_and(|(_, best)| self.is_clean(&self.tried[*best]))
@@ -155,10 +198,11 @@ impl World {
     /// Begins to try the starts that `choice` allows. The error, in words, says that none of them can be begun.
     pub fn dressed(
         source: Arc<GarmentSource>,
-        body: Arc<Surface>,
+        body: BodyAndPose,
         fabrics: Arc<DrapeSource>,
         choice: StartChoice,
     ) -> Result<Self, Words> {
+        let BodyAndPose { body, built } = body;
         let is_marked = source.marks.pairs().next().is_some();
         // No mark that could be suggested leads what is only tacked on, as a bow is.
         let is_allowed = |start: &Start| match choice.only {
@@ -184,12 +228,15 @@ impl World {
             coarse: None,
             draped_fine: None,
             source,
-            body,
             fabrics,
             choice,
             order: left.clone(),
             left,
             finer: false,
+            built: built.filter(|built| !is_marked && built.mesh.triangles == body.mesh.triangles),
+            body,
+            as_built: false,
+            carrying: false,
             now: Start::Marks,
             draping: false,
             ticks: 0,
@@ -207,19 +254,17 @@ impl World {
     fn next_start(trials: &mut Trials) -> Option<Self> {
         loop {
             while let Some(start) = trials.left.pop() {
-                (trials.now, trials.draping, trials.ticks) = (start, false, 0);
+                (trials.now, trials.draping, trials.carrying, trials.ticks) = (start, false, false, 0);
                 match begun(start, trials) {
                     Ok(world) => return Some(world),
-                    Err(words) => {
-                        let (draped, finer, faults) = (trials.now().1, trials.finer, vec![words]);
-                        trials.tried.push(Tried { start, draped, finer, faults, places: 0, ticks: 0 });
-                    }
+                    Err(words) => trials.tried.push(trials.result(vec![words], 0)),
                 }
             }
-            if !trials.is_worth_a_finer_mesh() {
+            if trials.is_worth_a_finer_mesh() {
+                trials.begin_finer();
+            } else if !trials.begin_as_built() {
                 return None;
             }
-            trials.begin_finer();
         }
     }
 
@@ -259,6 +304,7 @@ impl World {
             Some(edge_length) => Arc::new(GarmentSource { edge_length, ..GarmentSource::clone(&source) }),
             None => source,
         };
+        let body = BodyAndPose { body, built: trials.built.clone() };
         let again = Self::dressed(source, body, Arc::clone(&trials.fabrics), trials.choice);
         Some(again.map(|world| Self { relaxing: self.relaxing, ..world }))
     }
@@ -306,7 +352,13 @@ impl World {
         }
         let lies = self.cloth.mapped.contains(&true) && self.not_finite().is_none();
         let drapes_next = trials.now == Start::Marks && !trials.draping && lies && !is_astray;
+        // Few faults may come out on the way, or in the garment's own mesh.
+        let is_fair = faults.is_empty() || trials.result(faults.clone(), places).is_nearly_clean();
+        let is_carried = trials.is_on_built() && trials.now().1 && is_fair && lies;
         trials.note(self.clone(), faults, places);
+        if is_carried && self.carry_into_pose(trials) {
+            return None;
+        }
         if drapes_next {
             (trials.draping, trials.ticks) = (true, 0);
             self.hung_at = self.garment.as_ref().map(|garment| tops(garment, &self.cloth).into());
@@ -336,6 +388,21 @@ impl World {
         Some(Self { started: Some(Arc::new(started)), ..world })
     }
 
+    /// Begins to carry cloth on the body as it is built to the body's pose. False where that cannot be begun.
+    fn carry_into_pose(&mut self, trials: &mut Trials) -> bool {
+        let then = Then::Part(Arc::clone(&trials.fabrics));
+        // Marks that were suggested for the other pose are not where they would be suggested for this one.
+        let carried = self.reposed(Arc::clone(&trials.body), Arc::default(), then);
+        let Ok(Some(carried)) = carried else { return false };
+        *self = carried;
+        // The pieces are placed as the user placed them.
+        if let Some(posing) = &mut self.posing {
+            Arc::make_mut(posing).place_as(&trials.source);
+        }
+        (trials.carrying, trials.ticks) = (true, 0);
+        true
+    }
+
     /// The cloth in the garment's own mesh that is taken: this, which has these faults in so many places, or what it was before it was
     /// relaxed once more.
     fn ended(
@@ -350,9 +417,9 @@ impl World {
             return Self { started: Some(Arc::new(started)), ..self.clone() };
         };
         (taken.faults, taken.places) = (its_faults, its_places);
-        let (start, finer, ticks) = (taken.start, taken.finer, trials.ticks);
         let is_better = faults.is_empty();
-        started.tried.push(Tried { start, draped: false, finer, faults, places, ticks });
+        let undraped = Tried { draped: false, faults, places, ticks: trials.ticks, ..taken.clone() };
+        started.tried.push(undraped);
         if is_better {
             started.taken = started.tried.len() - 1;
             return Self { started: Some(Arc::new(started)), ..self.clone() };
@@ -421,7 +488,10 @@ impl World {
 
 /// Begins `start` with the garment of `trials`; the error is in words.
 fn begun(start: Start, trials: &Trials) -> Result<World, Words> {
-    let (source, body) = (Arc::clone(&trials.source), Arc::clone(&trials.body));
+    let (source, body) = match trials.built.as_ref().filter(|_| trials.as_built) {
+        Some(built) => (placed_round(&trials.source, built), Arc::clone(built)),
+        None => (Arc::clone(&trials.source), Arc::clone(&trials.body)),
+    };
     if start == Start::Placement {
         return World::placed(source, body, Arc::clone(&trials.fabrics));
     }
@@ -441,6 +511,15 @@ fn begun(start: Start, trials: &Trials) -> Result<World, Words> {
         Arc::new(GarmentSource { marks: Arc::new(marks), ..GarmentSource::clone(&source) }),
         body,
     ))
+}
+
+/// `source` with its pieces placed round `body`.
+fn placed_round(source: &Arc<GarmentSource>, body: &Surface) -> Arc<GarmentSource> {
+    let found = landmarks::found(&body.mesh);
+    let bones = found.map(|marks| bones::extracted(body, &marks)).unwrap_or_default();
+    let mut pattern = Pattern::clone(&source.pattern);
+    onto(&pattern, body, &bones, source.relax.offset * body.scale()).carry_out(&mut pattern);
+    Arc::new(GarmentSource { pattern: Arc::new(pattern), ..GarmentSource::clone(source) })
 }
 
 /// Number of places with faults.
@@ -473,12 +552,13 @@ mod tests {
 
     /// Trials whose cloth has a fault in the garment's own mesh although it was draped twice there, and the world of that cloth.
     fn faulty() -> (World, Trials) {
-        let begun = World::dressed(source(), ball(), cotton(), StartChoice::default());
+        let begun = World::dressed(source(), ball().into(), cotton(), StartChoice::default());
         let mut world = begun.expect("begun");
         let mut trials = Arc::unwrap_or_clone(world.trials.take().expect("begun"));
         let world = rested(world);
         let (faults, places, ticks) = (Vec::new(), 0, 9);
-        let tried = Tried { start: Start::Marks, draped: true, finer: false, faults, places, ticks };
+        let tried =
+            Tried { start: Start::Marks, draped: true, finer: false, as_built: false, faults, places, ticks };
         trials.fine = Some(0.03);
         trials.refining = Some(Started { tried: vec![tried], taken: 0 });
         (trials.refinement, trials.draping) = (Refinement::Again, true);
@@ -519,7 +599,15 @@ mod tests {
         let (world, mut trials) = faulty();
         let ended = |places: usize| {
             let (faults, ticks) = (vec![Words::plain("it crosses itself")], 9);
-            let tried = Tried { start: Start::Marks, draped: true, finer: false, faults, places, ticks };
+            let tried = Tried {
+                start: Start::Marks,
+                draped: true,
+                finer: false,
+                as_built: false,
+                faults,
+                places,
+                ticks,
+            };
             World { started: Some(Arc::new(Started { tried: vec![tried], taken: 0 })), ..world.clone() }
         };
         trials.left.clear();
@@ -545,8 +633,37 @@ mod tests {
     }
 
     #[test]
+    fn what_fails_in_a_pose_is_dressed_in_the_built_one_and_carried_to_it() {
+        let (world, mut trials) = faulty();
+        let aside = ball().mesh.positions.iter().map(|p| *p + glam::DVec3::X * 0.05).collect();
+        let posed = Arc::new(ball().reposed(aside).expect("as many vertices"));
+        (trials.body, trials.built, trials.fine, trials.refining) =
+            (Arc::clone(&posed), Some(ball()), None, None);
+        (trials.left, trials.draping) = (Vec::new(), true);
+        trials.note(world.clone(), vec![Words::plain("it crosses itself")], Tried::FEW + 1);
+        let again = World::next_start(&mut trials).expect("once more");
+        assert!(trials.as_built && again.body.as_ref().is_some_and(|body| body.mesh == ball().mesh));
+        trials.draping = true;
+        let mut world = World { was_draped: true, ..rested(again) };
+        let before = Arc::clone(&world.cloth);
+        assert!(world.after_start(&mut trials, None).is_none() && world.posing.is_some());
+        while world.posing.is_some() {
+            world.pose();
+        }
+        let world = rested(world).after_start(&mut trials, None).expect("taken");
+        let started = world.started.as_ref().expect("told");
+        assert!(started.taken().as_built && started.taken().faults.is_empty());
+        assert!(world.body.as_ref().is_some_and(|body| Arc::ptr_eq(body, &posed)));
+        for (p, q) in before.positions.iter().zip(&world.cloth.positions) {
+            assert!((*q - *p).distance(glam::DVec3::X * 0.05) < 1e-3, "{p} to {q}");
+        }
+        trials.left.clear();
+        assert!(World::next_start(&mut trials).is_none(), "once is enough");
+    }
+
+    #[test]
     fn starts_with_few_faults_are_tried_once_more_in_a_finer_mesh_and_carried_to_their_own() {
-        let begun = World::dressed(source(), ball(), cotton(), StartChoice::default());
+        let begun = World::dressed(source(), ball().into(), cotton(), StartChoice::default());
         let mut world = begun.expect("begun");
         let mut trials = Arc::unwrap_or_clone(world.trials.take().expect("begun"));
         let own = trials.source.edge_length;

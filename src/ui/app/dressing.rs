@@ -38,7 +38,8 @@ impl App {
         };
         let has_marks = document.marks.pairs().next().is_some();
         self.messages.tell(words(started, has_marks));
-        if let (Start::Marks, false, Some(source)) = (started.taken().start, has_marks, &snapshot.source) {
+        let suggested = started.taken().start == Start::Marks && !started.taken().as_built && !has_marks;
+        if let Some(source) = snapshot.source.as_ref().filter(|_| suggested) {
             self.ghosts = Ghosts::of(Arc::clone(&source.marks), &self.session);
         }
     }
@@ -48,6 +49,9 @@ impl App {
 fn words(started: &Started, has_marks: bool) -> String {
     let taken = started.taken();
     let dressed = match (taken.start, taken.draped) {
+        _ if taken.as_built => {
+            tr("Dressed in the pose that the mannequin is built in, and carried to its pose")
+        }
         (Start::Placement, _) => tr("Dressed from its placement, sewn"),
         (Start::Marks, true) if has_marks => tr("Dressed by its marks, draped"),
         (Start::Marks, true) => tr("Dressed by suggested marks, draped"),

@@ -95,8 +95,8 @@ fn hex([r, g, b]: [u8; 3]) -> String {
     format!("#{r:02x}{g:02x}{b:02x}")
 }
 
-/// A button that opens a menu which a click inside does not close. The menu covers the panel that the button is in, as wide as it, so
-/// that the panes beside it show what is changed.
+/// A button that opens a menu which a click inside does not close. The menu covers the panel that the button is in, and reaches no
+/// farther over the panes beside it than its contents are wider than the panel, so that these show what is changed.
 pub fn panel_menu(ui: &mut Ui, button: egui::Button<'_>, contents: impl FnOnce(&mut Ui)) -> egui::Response {
     let response = ui.add(button);
     let panel = ui.clip_rect().x_range();
