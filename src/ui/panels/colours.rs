@@ -67,7 +67,7 @@ pub fn colour_menu(ui: &mut Ui, name: &str, colour: Rgb, asks: &mut Asks, comman
 /// A palette of dyes, and the colour as six hexadecimal digits.
 pub fn colour_ui(ui: &mut Ui, what: &str, colour: &mut [u8; 3]) {
     let opaque = |[r, g, b]: [u8; 3]| egui::Color32::from_rgb(r, g, b);
-    egui::Grid::new(("palette", what)).spacing(egui::vec2(3.0, 3.0)).show(ui, |ui| {
+    egui::Grid::new(("palette", what)).min_col_width(SWATCH.x).spacing(egui::vec2(3.0, 3.0)).show(ui, |ui| {
         for row in DYES.chunks(8) {
             for &dye in row {
                 let line = if dye == *colour { ui.visuals().strong_text_color() } else { opaque(dye) };
