@@ -90,7 +90,7 @@ impl StartReport {
         Self {
             taken: started.taken().start,
             draped: started.taken().draped,
-            as_built: started.taken().as_built,
+            as_built: started.taken().as_built.is_some(),
             tried: tried.map(|(tried, seconds)| TriedReport { tried, seconds }).collect(),
         }
     }

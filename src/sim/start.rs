@@ -52,6 +52,16 @@ pub struct StartChoice {
     pub draped: bool,
 }
 
+/// How a start uses the pose that the mannequin is built in.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum AsBuilt {
+    /// The mannequin was dressed in that pose.
+    Dressed,
+    /// The garment was carried from there to the pose that the body has.
+    Carried,
+}
+
 /// Result of a start.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Tried {
@@ -62,9 +72,9 @@ pub struct Tried {
     /// Whether it was tried in a mesh a little finer than the garment's own, as the same starts had few faults before.
     #[serde(skip_serializing_if = "std::ops::Not::not")]
     pub finer: bool,
-    /// Whether the mannequin was dressed in the pose that it is built in, and the garment carried from there to its pose.
-    #[serde(skip_serializing_if = "std::ops::Not::not")]
-    pub as_built: bool,
+    /// What the pose that the mannequin is built in has to do with it; None: nothing.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub as_built: Option<AsBuilt>,
     /// Faults, in words.
     pub faults: Vec<Words>,
     /// Number of places with faults.
@@ -88,8 +98,11 @@ impl std::fmt::Display for Tried {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         let draped = if self.draped && self.start == Start::Marks { ", draped" } else { "" };
         let finer = if self.finer { ", in a finer mesh" } else { "" };
-        let as_built =
-            if self.as_built { ", carried from the pose that the mannequin is built in" } else { "" };
+        let as_built = match self.as_built {
+            None => "",
+            Some(AsBuilt::Dressed) => ", in the pose that the mannequin is built in",
+            Some(AsBuilt::Carried) => ", carried from the pose that the mannequin is built in",
+        };
         write!(f, "{}{draped}{finer}{as_built}", self.start)
     }
 }

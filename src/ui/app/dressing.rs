@@ -38,7 +38,8 @@ impl App {
         };
         let has_marks = document.marks.pairs().next().is_some();
         self.messages.tell(words(started, has_marks));
-        let suggested = started.taken().start == Start::Marks && !started.taken().as_built && !has_marks;
+        let suggested =
+            started.taken().start == Start::Marks && started.taken().as_built.is_none() && !has_marks;
         if let Some(source) = snapshot.source.as_ref().filter(|_| suggested) {
             self.ghosts = Ghosts::of(Arc::clone(&source.marks), &self.session);
         }
@@ -49,7 +50,7 @@ impl App {
 fn words(started: &Started, has_marks: bool) -> String {
     let taken = started.taken();
     let dressed = match (taken.start, taken.draped) {
-        _ if taken.as_built => {
+        _ if taken.as_built.is_some() => {
             tr("Dressed in the pose that the mannequin is built in, and carried to its pose")
         }
         (Start::Placement, _) => tr("Dressed from its placement, sewn"),

@@ -136,11 +136,12 @@ impl App {
         }
     }
 
-    /// The body to show: while the cloth has not followed to another pose yet, the body in the pose that the cloth has.
+    /// The body to show: while the cloth has not followed to another pose yet, and while it is put on in another, the body in the pose
+    /// that the cloth has.
     fn body_shown(&self, snapshot: &Snapshot) -> Option<Arc<Surface>> {
         let shown = self.shown();
-        let follows = snapshot.is_dressed() && snapshot.seq < shown.last_seq();
-        snapshot.body.as_ref().filter(|_| follows).or(shown.surface()).cloned()
+        let has_other = snapshot.seq < shown.last_seq() || snapshot.trying.is_some();
+        snapshot.body.as_ref().filter(|_| snapshot.is_dressed() && has_other).or(shown.surface()).cloned()
     }
 
     fn seen<'a>(

@@ -1,21 +1,24 @@
 //! Search for the best start of a garment: ways to put it on are tried one after the other until one has no fault.
 
+mod as_built;
+
 use std::sync::Arc;
 
-use crate::body::{Surface, bones, landmarks};
+use crate::body::{Surface, landmarks};
 use crate::cloth::Skip;
 use crate::fit::{BodyIndex, Report, TightPlace, measure, tight_places, tops};
 use crate::geometry::words::{Words, words};
-use crate::pattern::Pattern;
-use crate::place::{Turned, onto};
+use crate::place::Turned;
 use crate::sim::fault::{Fault, Lies, faults};
 use crate::sim::source::DrapeSource;
 use crate::sim::source::GarmentSource;
-use crate::sim::start::{Start, StartChoice, Started, Tried};
+use crate::sim::start::{AsBuilt, Start, StartChoice, Started, Tried};
 use crate::sim::world::World;
 use crate::sim::world::coarse::coarse_edge;
-use crate::sim::world::posed::Then;
 use crate::wrap::suggested;
+
+pub use as_built::BodyAndPose;
+use as_built::{Try, tries};
 
 /// Ticks after which a start is judged even if its cloth still moves, unless it is the only one.
 const MOST_TICKS: u32 = 2000;
@@ -32,19 +35,6 @@ pub(in crate::sim) struct Judged {
     pub is_astray: bool,
 }
 
-/// A body, and the same in the pose that it is built in; None: it has no other pose.
-#[derive(Clone, Debug)]
-pub struct BodyAndPose {
-    pub body: Arc<Surface>,
-    pub built: Option<Arc<Surface>>,
-}
-
-impl From<Arc<Surface>> for BodyAndPose {
-    fn from(body: Arc<Surface>) -> Self {
-        Self { body, built: None }
-    }
-}
-
 /// Starts being tried.
 #[derive(Clone, Debug)]
 pub struct Trials {
@@ -53,16 +43,18 @@ pub struct Trials {
     fabrics: Arc<DrapeSource>,
     choice: StartChoice,
     /// The starts, the last first.
-    order: Vec<Start>,
-    left: Vec<Start>,
+    order: Vec<Try>,
+    left: Vec<Try>,
     /// Whether they are tried once more, in a finer mesh.
     finer: bool,
     /// The body in the pose that it is built in. None: that is the pose that it has, or marks lead the garment to where it is.
     built: Option<Arc<Surface>>,
-    /// Whether they are tried once more on that body.
+    /// Whether the present start is tried on that body.
     as_built: bool,
     /// Whether the cloth of the present start is carried from there to the body's pose, or was.
     carrying: bool,
+    /// Its cloth there before it was draped, where that has no fault.
+    undraped: Option<Arc<World>>,
     now: Start,
     /// Whether [`Trials`] is draping the start, as it does after the wrap of [`Start::Marks`].
     draping: bool,
@@ -109,15 +101,12 @@ impl Trials {
         (self.now, self.draping || self.now == Start::Placement)
     }
 
-    /// Whether the present start is still on the body as it is built.
-    fn is_on_built(&self) -> bool {
-        self.as_built && !self.carrying
-    }
-
     /// A result of the present start.
     fn result(&self, faults: Vec<Words>, places: usize) -> Tried {
         let (draped, finer, ticks) = (self.now().1, self.finer, self.ticks);
-        Tried { start: self.now, draped, finer, as_built: self.as_built, faults, places, ticks }
+        let as_built =
+            self.as_built.then_some(if self.carrying { AsBuilt::Carried } else { AsBuilt::Dressed });
+        Tried { start: self.now, draped, finer, as_built, faults, places, ticks }
     }
 
     /// Whether the present start has used up its time. An only start has as much as it needs, for example to sew several layers.
@@ -139,6 +128,9 @@ impl Trials {
     fn note(&mut self, world: World, faults: Vec<Words>, places: usize) {
         let tried = self.result(faults, places);
         if self.is_on_built() {
+            if !tried.draped && self.is_clean(&tried) {
+                self.undraped = Some(Arc::new(world));
+            }
             return self.tried.push(tried);
         }
         let is_clean = self.is_clean(&tried);
@@ -179,15 +171,6 @@ impl Trials {
         Arc::make_mut(&mut self.source).edge_length *= FINER;
     }
 
-    /// Begins all starts again on the body as it is built. False where it has no other pose, or where that was tried.
-    fn begin_as_built(&mut self) -> bool {
-        let begins = self.built.is_some() && !self.as_built;
-        if begins {
-            (self.as_built, self.left) = (true, self.order.clone());
-        }
-        begins
-    }
-
     /// Whether the best result has no fault.
     fn has_clean(&self) -> bool {
         self.best.as_ref().is_some_and(|(_, best)| self.is_clean(&self.tried[*best]))
@@ -202,20 +185,23 @@ impl World {
         fabrics: Arc<DrapeSource>,
         choice: StartChoice,
     ) -> Result<Self, Words> {
-        let BodyAndPose { body, built } = body;
+        let BodyAndPose { body, built } = body.checked();
         let is_marked = source.marks.pairs().next().is_some();
         // No mark that could be suggested leads what is only tacked on, as a bow is.
         let is_allowed = |start: &Start| match choice.only {
             Some(only) => only == *start,
             None => is_marked || *start == Start::Placement || !source.pattern.has_tacks(),
         };
-        let mut left: Vec<Start> = Start::ALL.into_iter().filter(is_allowed).collect();
+        let mut starts: Vec<Start> = Start::ALL.into_iter().filter(is_allowed).collect();
         // What turns over is sewn as it is placed: wrapped round the body a collar stands, and does not turn over any more. Marks
         // that the user made go before.
         let turns_over = source.pattern.turns_over_at_a_seam() || !Turned::new(&source.pattern).is_empty();
-        if is_marked || !turns_over {
-            left.reverse();
+        if turns_over && !is_marked {
+            starts.reverse();
         }
+        let built = built.filter(|_| !is_marked);
+        let mut order = tries(&starts, built.is_some());
+        order.reverse();
         let (coarse, own) = (coarse_edge(&source), source.edge_length);
         let source = match coarse {
             Some(edge_length) => Arc::new(GarmentSource { edge_length, ..GarmentSource::clone(&source) }),
@@ -230,13 +216,14 @@ impl World {
             source,
             fabrics,
             choice,
-            order: left.clone(),
-            left,
+            left: order.clone(),
+            order,
             finer: false,
-            built: built.filter(|built| !is_marked && built.mesh.triangles == body.mesh.triangles),
+            built,
             body,
             as_built: false,
             carrying: false,
+            undraped: None,
             now: Start::Marks,
             draping: false,
             ticks: 0,
@@ -253,18 +240,19 @@ impl World {
     /// Begins the next start that can be begun, or the first once more in a finer mesh; failures are recorded.
     fn next_start(trials: &mut Trials) -> Option<Self> {
         loop {
-            while let Some(start) = trials.left.pop() {
+            while let Some(Try { start, as_built }) = trials.left.pop() {
+                trials.as_built = as_built;
                 (trials.now, trials.draping, trials.carrying, trials.ticks) = (start, false, false, 0);
+                trials.undraped = None;
                 match begun(start, trials) {
                     Ok(world) => return Some(world),
                     Err(words) => trials.tried.push(trials.result(vec![words], 0)),
                 }
             }
-            if trials.is_worth_a_finer_mesh() {
-                trials.begin_finer();
-            } else if !trials.begin_as_built() {
+            if !trials.is_worth_a_finer_mesh() {
                 return None;
             }
+            trials.begin_finer();
         }
     }
 
@@ -352,11 +340,9 @@ impl World {
         }
         let lies = self.cloth.mapped.contains(&true) && self.not_finite().is_none();
         let drapes_next = trials.now == Start::Marks && !trials.draping && lies && !is_astray;
-        // Few faults may come out on the way, or in the garment's own mesh.
-        let is_fair = faults.is_empty() || trials.result(faults.clone(), places).is_nearly_clean();
-        let is_carried = trials.is_on_built() && trials.now().1 && is_fair && lies;
+        let goes_on = lies && trials.goes_into_pose(&faults, places);
         trials.note(self.clone(), faults, places);
-        if is_carried && self.carry_into_pose(trials) {
+        if goes_on && self.carry_into_pose(trials) {
             return None;
         }
         if drapes_next {
@@ -367,13 +353,16 @@ impl World {
         }
         // The same marks may have been without fault before draping.
         if !trials.has_clean() {
+            if self.carry_undraped(trials) {
+                return None;
+            }
             let relaxing = self.relaxing;
             if let Some(next) = Self::next_start(trials) {
                 *self = Self { relaxing, ..next };
                 return None;
             }
         }
-        let (world, taken) = trials.best.take()?;
+        let (world, taken) = trials.best.take().unwrap_or_else(|| trials.left_on_built(self));
         let started = Started { tried: std::mem::take(&mut trials.tried), taken };
         let world = Arc::unwrap_or_clone(world);
         let is_in =
@@ -386,21 +375,6 @@ impl World {
             return None;
         }
         Some(Self { started: Some(Arc::new(started)), ..world })
-    }
-
-    /// Begins to carry cloth on the body as it is built to the body's pose. False where that cannot be begun.
-    fn carry_into_pose(&mut self, trials: &mut Trials) -> bool {
-        let then = Then::Part(Arc::clone(&trials.fabrics));
-        // Marks that were suggested for the other pose are not where they would be suggested for this one.
-        let carried = self.reposed(Arc::clone(&trials.body), Arc::default(), then);
-        let Ok(Some(carried)) = carried else { return false };
-        *self = carried;
-        // The pieces are placed as the user placed them.
-        if let Some(posing) = &mut self.posing {
-            Arc::make_mut(posing).place_as(&trials.source);
-        }
-        (trials.carrying, trials.ticks) = (true, 0);
-        true
     }
 
     /// The cloth in the garment's own mesh that is taken: this, which has these faults in so many places, or what it was before it was
@@ -488,10 +462,7 @@ impl World {
 
 /// Begins `start` with the garment of `trials`; the error is in words.
 fn begun(start: Start, trials: &Trials) -> Result<World, Words> {
-    let (source, body) = match trials.built.as_ref().filter(|_| trials.as_built) {
-        Some(built) => (placed_round(&trials.source, built), Arc::clone(built)),
-        None => (Arc::clone(&trials.source), Arc::clone(&trials.body)),
-    };
+    let (source, body) = trials.source_and_body();
     if start == Start::Placement {
         return World::placed(source, body, Arc::clone(&trials.fabrics));
     }
@@ -511,15 +482,6 @@ fn begun(start: Start, trials: &Trials) -> Result<World, Words> {
         Arc::new(GarmentSource { marks: Arc::new(marks), ..GarmentSource::clone(&source) }),
         body,
     ))
-}
-
-/// `source` with its pieces placed round `body`.
-fn placed_round(source: &Arc<GarmentSource>, body: &Surface) -> Arc<GarmentSource> {
-    let found = landmarks::found(&body.mesh);
-    let bones = found.map(|marks| bones::extracted(body, &marks)).unwrap_or_default();
-    let mut pattern = Pattern::clone(&source.pattern);
-    onto(&pattern, body, &bones, source.relax.offset * body.scale()).carry_out(&mut pattern);
-    Arc::new(GarmentSource { pattern: Arc::new(pattern), ..GarmentSource::clone(source) })
 }
 
 /// Number of places with faults.
@@ -543,7 +505,7 @@ mod tests {
     use super::*;
     use crate::sim::simulation::tests::{ball, cotton, source};
 
-    fn rested(mut world: World) -> World {
+    pub(super) fn rested(mut world: World) -> World {
         while !world.lies_still() {
             world.advance();
         }
@@ -551,14 +513,14 @@ mod tests {
     }
 
     /// Trials whose cloth has a fault in the garment's own mesh although it was draped twice there, and the world of that cloth.
-    fn faulty() -> (World, Trials) {
+    pub(super) fn faulty() -> (World, Trials) {
         let begun = World::dressed(source(), ball().into(), cotton(), StartChoice::default());
         let mut world = begun.expect("begun");
         let mut trials = Arc::unwrap_or_clone(world.trials.take().expect("begun"));
         let world = rested(world);
         let (faults, places, ticks) = (Vec::new(), 0, 9);
         let tried =
-            Tried { start: Start::Marks, draped: true, finer: false, as_built: false, faults, places, ticks };
+            Tried { start: Start::Marks, draped: true, finer: false, as_built: None, faults, places, ticks };
         trials.fine = Some(0.03);
         trials.refining = Some(Started { tried: vec![tried], taken: 0 });
         (trials.refinement, trials.draping) = (Refinement::Again, true);
@@ -603,7 +565,7 @@ mod tests {
                 start: Start::Marks,
                 draped: true,
                 finer: false,
-                as_built: false,
+                as_built: None,
                 faults,
                 places,
                 ticks,
@@ -630,35 +592,6 @@ mod tests {
         trials.choice.draped = true;
         let world = world.after_start(&mut trials, Some(Words::plain("it fell off"))).expect("taken");
         assert_eq!(world.started.expect("told").tried.len(), 1);
-    }
-
-    #[test]
-    fn what_fails_in_a_pose_is_dressed_in_the_built_one_and_carried_to_it() {
-        let (world, mut trials) = faulty();
-        let aside = ball().mesh.positions.iter().map(|p| *p + glam::DVec3::X * 0.05).collect();
-        let posed = Arc::new(ball().reposed(aside).expect("as many vertices"));
-        (trials.body, trials.built, trials.fine, trials.refining) =
-            (Arc::clone(&posed), Some(ball()), None, None);
-        (trials.left, trials.draping) = (Vec::new(), true);
-        trials.note(world.clone(), vec![Words::plain("it crosses itself")], Tried::FEW + 1);
-        let again = World::next_start(&mut trials).expect("once more");
-        assert!(trials.as_built && again.body.as_ref().is_some_and(|body| body.mesh == ball().mesh));
-        trials.draping = true;
-        let mut world = World { was_draped: true, ..rested(again) };
-        let before = Arc::clone(&world.cloth);
-        assert!(world.after_start(&mut trials, None).is_none() && world.posing.is_some());
-        while world.posing.is_some() {
-            world.pose();
-        }
-        let world = rested(world).after_start(&mut trials, None).expect("taken");
-        let started = world.started.as_ref().expect("told");
-        assert!(started.taken().as_built && started.taken().faults.is_empty());
-        assert!(world.body.as_ref().is_some_and(|body| Arc::ptr_eq(body, &posed)));
-        for (p, q) in before.positions.iter().zip(&world.cloth.positions) {
-            assert!((*q - *p).distance(glam::DVec3::X * 0.05) < 1e-3, "{p} to {q}");
-        }
-        trials.left.clear();
-        assert!(World::next_start(&mut trials).is_none(), "once is enough");
     }
 
     #[test]
