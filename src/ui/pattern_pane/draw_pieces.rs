@@ -42,6 +42,19 @@ const SHORTEST_NAMED: f32 = 26.0;
 /// Breadth on the screen of the narrowest piece that has its name, points.
 const NARROWEST_NAMED: f32 = 5.0;
 
+/// Least distance of two threads of a seam that nothing points to, points.
+const THREADS_APART: f32 = 14.0;
+
+/// A seam on the screen.
+struct Sewn<'a> {
+    id: SeamId,
+    ends: &'a Ends,
+    /// The ends of its threads in pairs.
+    sides: [Vec<Pos2>; 2],
+    /// Whether it is selected or under the pointer.
+    stands_out: bool,
+}
+
 /// The name of a piece, placed on the screen.
 pub struct Name {
     patch: Rect,
@@ -245,51 +258,56 @@ impl Drawing<'_> {
         }
     }
 
-    /// Draws the threads between sewn edges, and the edges in the colour of their seam.
+    /// Draws the threads between sewn edges that nothing points to: under the pieces, so that these can be read.
+    pub fn threads_below(&self, table: &Table<'_>) {
+        if table.laid.tool == Tool::Sew {
+            return;
+        }
+        let mut mesh = egui::Mesh::default();
+        for Sewn { id, ends, sides, .. } in self.sewn(table).filter(|sewn| !sewn.stands_out) {
+            let strength = if ends.is_twisted { self.palette.faint.max(0.7) } else { self.palette.faint };
+            let [from, to] = &sides;
+            let some = apart(from, to, THREADS_APART);
+            let some = [from, to].map(|side| some.iter().map(|&i| side[i]).collect());
+            self.threads(&mut mesh, &some, self.seam_ink(id, ends).gamma_multiply(strength), 1.0);
+        }
+        self.painter.add(Shape::mesh(mesh));
+    }
+
+    /// Draws sewn edges in the colour of their seam, and the threads of seams that stand out.
     pub fn seams(&self, table: &Table<'_>) {
+        let sewing = table.laid.tool == Tool::Sew;
+        let mut mesh = egui::Mesh::default();
+        let (loud, quiet): (Vec<_>, Vec<_>) = self.sewn(table).partition(|sewn| sewn.stands_out);
+        for Sewn { id, ends, sides, .. } in &quiet {
+            let ink = self.seam_ink(*id, ends);
+            if sewing {
+                self.threads(&mut mesh, sides, ink.gamma_multiply(self.palette.faint.max(0.7)), 1.0);
+            }
+            let ink = ink.gamma_multiply(if sewing { 1.0 } else { self.palette.faint.max(0.8) });
+            sides.iter().for_each(|side| strip(&mut mesh, side, ink, 2.0));
+        }
+        for Sewn { id, ends, sides, .. } in &loud {
+            let ink = self.seam_ink(*id, ends);
+            self.threads(&mut mesh, sides, ink, 1.4);
+            sides.iter().for_each(|side| strip(&mut mesh, side, ink, 4.0));
+        }
+        self.painter.add(Shape::mesh(mesh));
+    }
+
+    /// The seams that are in the pane.
+    fn sewn<'t>(&'t self, table: &'t Table<'_>) -> impl Iterator<Item = Sewn<'t>> {
         let near = match table.laid.highlight {
             Some(Item::Seam(id)) => Some(id),
             _ => None,
         };
-        let sewing = table.laid.tool == Tool::Sew;
-        let mut mesh = egui::Mesh::default();
-        let mut loud = Vec::new();
-        for (id, ends) in table.threads.all() {
-            let stands_out = near == Some(id) || table.laid.selection.seams.contains(&id);
-            if !ends.is_seen(table.pattern()) {
-                continue;
-            }
-            let Some(sides) = ends.on_table(table.pattern()) else { continue };
+        table.threads.all().filter(|(_, ends)| ends.is_seen(table.pattern())).filter_map(move |(id, ends)| {
+            let sides = ends.on_table(table.pattern())?;
             let sides = sides.map(|side| side.iter().map(|&p| self.place(p)).collect::<Vec<Pos2>>());
             let all = Rect::from_points(&[&sides[0][..], &sides[1][..]].concat());
-            if !all.intersects(self.pane) {
-                continue;
-            }
-            if stands_out {
-                loud.push((id, ends, sides));
-                continue;
-            }
-            let ink = self.seam_ink(id, ends);
-            let strength =
-                if sewing || ends.is_twisted { self.palette.faint.max(0.7) } else { self.palette.faint };
-            self.threads(&mut mesh, &sides, ink.gamma_multiply(strength), 1.0);
-            for side in &sides {
-                strip(
-                    &mut mesh,
-                    side,
-                    ink.gamma_multiply(if sewing { 1.0 } else { self.palette.faint.max(0.8) }),
-                    2.0,
-                );
-            }
-        }
-        for (id, ends, sides) in &loud {
-            let ink = self.seam_ink(*id, ends);
-            self.threads(&mut mesh, sides, ink, 1.4);
-            for side in sides {
-                strip(&mut mesh, side, ink, 4.0);
-            }
-        }
-        self.painter.add(Shape::mesh(mesh));
+            let stands_out = near == Some(id) || table.laid.selection.seams.contains(&id);
+            all.intersects(self.pane).then_some(Sewn { id, ends, sides, stands_out })
+        })
     }
 
     /// The colour of a seam; twisted seams have the colour of errors.
@@ -445,6 +463,22 @@ fn words_on(piece: &Piece, front: bool) -> String {
     words
 }
 
+/// The indices of the first and last of the threads between `from` and `to`, and of those between that are at least `least` apart.
+fn apart(from: &[Pos2], to: &[Pos2], least: f32) -> Vec<usize> {
+    let is_apart = |i: usize, j: usize| from[i].distance(from[j]).max(to[i].distance(to[j])) >= least;
+    let last = from.len().saturating_sub(1);
+    let mut taken: Vec<usize> = vec![0];
+    for i in 1..last {
+        if is_apart(i, taken[taken.len() - 1]) && is_apart(i, last) {
+            taken.push(i);
+        }
+    }
+    if last > 0 {
+        taken.push(last);
+    }
+    taken
+}
+
 /// Adds a polyline to `mesh` as two triangles per segment, which is cheap for many lines.
 fn strip(mesh: &mut egui::Mesh, points: &[Pos2], ink: Color32, width: f32) {
     for w in points.windows(2) {
@@ -456,5 +490,19 @@ fn strip(mesh: &mut egui::Mesh, points: &[Pos2], ink: Color32, width: f32) {
         }
         mesh.add_triangle(base, base + 1, base + 2);
         mesh.add_triangle(base, base + 2, base + 3);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn quiet_threads_keep_their_distance_and_the_ends() {
+        let side = |step: f32| (0..=8).map(|i| pos2(step * i as f32, 0.0)).collect::<Vec<_>>();
+        assert_eq!(apart(&side(20.0), &side(20.0), 14.0), (0..=8).collect::<Vec<_>>());
+        assert_eq!(apart(&side(5.0), &side(4.0), 14.0), [0, 3, 8]);
+        assert_eq!(apart(&side(1.0), &side(20.0), 14.0), (0..=8).collect::<Vec<_>>(), "one side is short");
+        assert_eq!(apart(&side(0.1), &side(0.1), 14.0), [0, 8]);
     }
 }

@@ -513,6 +513,7 @@ fn draw_table(drawing: &Drawing<'_>, table: &Table<'_>, new_guide: Option<&Guide
     let Laid { document, selected, ghosts, tool, .. } = *table.laid;
     let pattern = &*document.pattern;
     drawing.table(table.laid.unit);
+    drawing.threads_below(table);
     drawing.pieces(table);
     drawing.nests(table);
     drawing.seams(table);
