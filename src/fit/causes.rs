@@ -1,14 +1,16 @@
 //! Causes of strain: the pattern is smaller than the body, a seam joins unequal sides, or the simulation did not converge.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
+use glam::DVec3;
 use serde::{Deserialize, Serialize};
 
-use crate::body::readings::readings;
+use crate::body::readings::{Reading, readings};
 use crate::cloth::{ClothState, Garment};
 use crate::fit::girth::girths;
 use crate::fit::laid::Laid;
 use crate::fit::on_body::BodyIndex;
+use crate::fit::openings::Opening;
 use crate::fit::shape::quantile;
 use crate::geometry::words::{Words, decimal, words};
 
@@ -75,7 +77,7 @@ pub struct Causes {
     /// All others: the simulation did not come to rest there.
     pub unconverged: Strained,
     /// Places where the pattern is smaller than the body, the largest difference first. Filled only for a garment that has faults
-    /// and [is tight](Self::is_tight).
+    /// and [is tight](Self::is_tight) or has openings through which the body does not pass.
     pub smaller: Vec<Smaller>,
 }
 
@@ -183,8 +185,26 @@ fn unequal_sides(garment: &Garment) -> BTreeMap<[u32; 2], [f64; 2]> {
     found
 }
 
-/// Places where the girth of the pattern is smaller than that of the body, the largest difference first.
-pub(super) fn smaller(garment: &Garment, state: &ClothState, body: &BodyIndex<'_>) -> Vec<Smaller> {
+/// The length of an edge on its flat piece, metres, by its vertices; on a seam that of the shorter side.
+pub(super) fn flat_lengths(garment: &Garment, laid: &Laid) -> impl Fn([u32; 2]) -> f64 + use<> {
+    let mut all: Vec<([u32; 2], f64)> = edges(garment, laid).iter().map(|e| (e.ends, e.flat)).collect();
+    all.sort_by(|a, b| a.0.cmp(&b.0).then(a.1.total_cmp(&b.1)));
+    move |[a, b]| {
+        let ends = [a.min(b), a.max(b)];
+        all.get(all.partition_point(|(of, _)| *of < ends))
+            .filter(|(of, _)| *of == ends)
+            .map_or(0.0, |(_, l)| *l)
+    }
+}
+
+/// Places where the girth of the pattern is smaller than that of the body, the largest difference first. The openings `missed` are
+/// those through which the body does not pass.
+pub(super) fn smaller(
+    garment: &Garment,
+    state: &ClothState,
+    body: &BodyIndex<'_>,
+    missed: &[Opening],
+) -> Vec<Smaller> {
     let Some(readings) = readings(&body.surface().mesh, None) else { return Vec::new() };
     let mut found: Vec<Smaller> = girths(garment, state, &readings)
         .into_iter()
@@ -192,17 +212,38 @@ pub(super) fn smaller(garment: &Garment, state: &ClothState, body: &BodyIndex<'_
             let place = readings[i].name.to_owned();
             Smaller { place, body: readings[i].metres, pattern: girth.flat }
         })
+        .chain(missed.iter().filter_map(|opening| narrow(opening, &readings)))
         .filter(|smaller| smaller.body - smaller.pattern > LEAST_SMALLER)
         .collect();
     found.sort_by(|a, b| (b.body - b.pattern).total_cmp(&(a.body - a.pattern)));
+    let mut places = BTreeSet::new();
+    found.retain(|smaller| places.insert(smaller.place.clone()));
     found
+}
+
+/// The opening against the girth nearest to it, which is of a left limb: both sides are taken to be alike. None far from all of them.
+fn narrow(opening: &Opening, readings: &[Reading]) -> Option<Smaller> {
+    let middle = readings.iter().find_map(|reading| reading.tape.as_ref()).map(|tape| tape.origin.x)?;
+    let p = opening.middle;
+    let left = DVec3::new(middle + (p.x - middle).abs(), p.y, p.z);
+    let far =
+        |reading: &Reading| reading.tape.as_ref().map_or(f64::INFINITY, |tape| tape.origin.distance(left));
+    let nearest = readings.iter().min_by(|a, b| far(a).total_cmp(&far(b)))?;
+    // Between two girths of a limb there may be a thinner place.
+    let is_near = far(nearest) < 0.1;
+    is_near.then(|| Smaller {
+        place: nearest.name.to_owned(),
+        body: nearest.metres,
+        pattern: opening.flat_length,
+    })
 }
 
 #[cfg(test)]
 mod tests {
-    use glam::{DVec2, DVec3};
+    use glam::DVec2;
 
     use super::*;
+    use crate::body::measure::Tape;
     use crate::cloth::build;
     use crate::fit::maps::tests::{Sheets, sheets, tube};
     use crate::pattern::{EdgeRef, Pattern, Piece, Seam};
@@ -262,6 +303,24 @@ mod tests {
         garment.corners.iter().for_each(|c| state.positions[c.vertex as usize] = taper(c));
         let uneased = uneased_p99(garment, &Laid::new(garment, state));
         assert!((0.07..0.1 / 1.1 * 0.97).contains(&uneased), "{uneased}");
+    }
+
+    #[test]
+    fn an_opening_is_held_against_the_limb_beside_it() {
+        let girth = |name, metres, x| Reading {
+            name,
+            metres,
+            tape: Some(Tape { name, origin: DVec3::new(x, 1.3, 0.0), normal: DVec3::X }),
+            ..Reading::default()
+        };
+        let readings = [girth("bust", 0.9, 0.0), girth("upper arm", 0.31, 0.3)];
+        let opening =
+            |x| Opening { flat_length: 0.23, middle: DVec3::new(x, 1.32, 0.0), ..Opening::default() };
+        for x in [-0.28, 0.28] {
+            let found = narrow(&opening(x), &readings).expect("beside an arm");
+            assert_eq!((&*found.place, found.body, found.pattern), ("upper arm", 0.31, 0.23));
+        }
+        assert_eq!(narrow(&opening(0.6), &readings), None, "far out");
     }
 
     fn square(height: f64) -> [DVec2; 4] {

@@ -3,10 +3,11 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use crate::cloth::{ClothState, Garment};
-use crate::fit::causes::{causes, smaller, uneased_p99};
+use crate::fit::causes::{causes, flat_lengths, smaller, uneased_p99};
 use crate::fit::fastenings::fastenings;
 use crate::fit::laid::Laid;
 use crate::fit::on_body::{BodyIndex, on_body};
+use crate::fit::openings::Opening;
 use crate::fit::report::{Report, Seams};
 use crate::fit::shape;
 use crate::fit::verdict::verdict;
@@ -24,7 +25,7 @@ pub fn measure(pattern: &Pattern, garment: &Garment, state: &ClothState, body: &
     let tree = laid.mesh.tree();
     let (strain, pieces) = shape::strain_and_pieces(garment, &laid);
     let (interior_edges, folded_edges) = shape::interior_and_folded_edges(&laid);
-    let sits = on_body(&laid, &tree, body, &applied(pattern));
+    let sits = on_body(&laid, &tree, body, &applied(pattern), flat_lengths(garment, &laid));
     let unmapped = (0..garment.vertex_count).filter(|&v| state.mapped.get(v) != Some(&true)).count();
     let mut report = Report {
         triangles: laid.mesh.triangles.len(),
@@ -56,8 +57,10 @@ pub fn measure(pattern: &Pattern, garment: &Garment, state: &ClothState, body: &
         openings: sits.openings,
     };
     // Measuring the body takes longer than all else, so it is done only for garments with faults.
-    if report.strain_causes.is_tight(report.strain.edges) && !verdict(&report).is_empty() {
-        report.strain_causes.smaller = smaller(garment, state, body);
+    let is_tight = report.strain_causes.is_tight(report.strain.edges);
+    let missed: Vec<Opening> = report.openings.iter().copied().filter(|o| !o.body_through).collect();
+    if (is_tight || !missed.is_empty()) && !verdict(&report).is_empty() {
+        report.strain_causes.smaller = smaller(garment, state, body, &missed);
     }
     report
 }

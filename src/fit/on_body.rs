@@ -119,12 +119,13 @@ pub(super) struct OnBody {
 }
 
 /// Measures `laid`, whose triangles have the bounding volumes `cloth_tree`. The pieces `applied` are tacked on: their borders are no
-/// openings.
+/// openings. `flat` gives the length of an edge on its flat piece, metres.
 pub(super) fn on_body(
     laid: &Laid,
     cloth_tree: &Bvh,
     body: &BodyIndex<'_>,
     applied: &BTreeSet<PieceId>,
+    flat: impl Fn([u32; 2]) -> f64,
 ) -> OnBody {
     let garment = match applied.is_empty() {
         true => Cow::Borrowed(&laid.mesh),
@@ -147,7 +148,7 @@ pub(super) fn on_body(
         faces_in_folds: folded.iter().filter(|(_, folded)| *folded).count(),
         faces_between: folded.iter().filter(|(t, folded)| !folded && is_between(laid, body, *t)).count(),
         clearance: Clearance { median: quantile(&distances, 0.5), p95: quantile(&distances, 0.95) },
-        openings: openings(&garment, body_mesh, body.winding.tree(), |t| body.is_skin(t)),
+        openings: openings(&garment, body_mesh, body.winding.tree(), flat, |t| body.is_skin(t)),
     }
 }
 

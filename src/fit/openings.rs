@@ -8,21 +8,28 @@ use crate::geometry::crossings::segment_meets_triangle;
 use crate::geometry::mesh::TriMesh;
 
 /// A closed border loop of the cloth.
-#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct Opening {
     /// Length, metres.
     pub length: f64,
+    /// Length on the flat pieces, metres.
+    #[serde(default)]
+    pub flat_length: f64,
     /// Mean height of its vertices, metres.
     pub height: f64,
     /// Whether the body passes through the opening, which is closed by a fan of triangles from its centroid.
     pub body_through: bool,
+    /// Mean of its vertices, metres.
+    #[serde(skip)]
+    pub middle: DVec3,
 }
 
-/// The openings, longest first. `skin(t)` tells whether triangle `t` of `body` is on its outside; `tree` is over these triangles.
+/// The openings, longest first. `flat` gives the length of an edge on its flat piece, metres. `skin(t)` tells whether triangle `t` of `body` is on its outside; `tree` is over these triangles.
 pub(super) fn openings(
     cloth: &TriMesh,
     body: &TriMesh,
     tree: &Bvh,
+    flat: impl Fn([u32; 2]) -> f64,
     skin: impl Fn(u32) -> bool,
 ) -> Vec<Opening> {
     let mut found: Vec<Opening> = border_loops(cloth)
@@ -32,7 +39,9 @@ pub(super) fn openings(
             let n = points.len();
             Opening {
                 length: (0..n).map(|i| points[i].distance(points[(i + 1) % n])).sum(),
+                flat_length: (0..n).map(|i| flat([chain[i], chain[(i + 1) % n]])).sum(),
                 height: points.iter().map(|p| p.y).sum::<f64>() / n as f64,
+                middle: points.iter().sum::<DVec3>() / n as f64,
                 body_through: passes(&points, body, tree, &skin),
             }
         })
@@ -78,9 +87,10 @@ mod tests {
         let loops = border_loops(&mesh);
         assert_eq!(loops.iter().map(Vec::len).collect::<Vec<_>>(), [8, 8]);
         let nothing = TriMesh::default();
-        let open = openings(&mesh, &nothing, &Bvh::new(&[]), |_| true);
+        let open = openings(&mesh, &nothing, &Bvh::new(&[]), |_| 0.5, |_| true);
         let octagon = 16.0 * (std::f64::consts::PI / 8.0).sin();
         assert!(open.iter().all(|o| (o.length - octagon).abs() < 1e-12 && !o.body_through));
         assert!((open[0].height - open[1].height).abs() == 1.0);
+        assert!(open.iter().all(|o| o.flat_length == 4.0));
     }
 }

@@ -44,7 +44,7 @@ mod tests {
             missing_triangles: 3,
             ..PieceChange::default()
         };
-        let opening = Opening { length: 0.8, height: 1.25, body_through: false };
+        let opening = Opening { length: 0.8, height: 1.25, ..Opening::default() };
         let mut report = Report {
             triangles: 10,
             not_finite_vertices: 1,
