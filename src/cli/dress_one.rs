@@ -50,7 +50,8 @@ pub fn dress_one(project: &Path, folder: &Path, arguments: &Dress) -> Result<Don
         session.use_card(Some(run::card(kind)?));
     }
     run::choose_cloth(&mut session, &arguments.cloth)?;
-    dress_by(&mut session, project, arguments, &mut seconds)?;
+    let choice = StartChoice { only: arguments.start, draped: arguments.drape };
+    dress_by(&mut session, project, choice, &mut seconds)?;
     run::to_rest(&mut session, arguments.max_ticks, &mut seconds)?;
     let started = session.snapshot().started.clone();
     let note = started.as_deref().and_then(doubt);
@@ -73,22 +74,21 @@ pub fn dress_one(project: &Path, folder: &Path, arguments: &Dress) -> Result<Don
 }
 
 /// Wraps by the marks; without any, dresses by the best start.
-fn dress_by(
+pub fn dress_by(
     session: &mut Session,
     project: &Path,
-    arguments: &Dress,
+    choice: StartChoice,
     seconds: &mut Seconds,
 ) -> Result<(), Failure> {
     let document = session.document();
     let is_placed = document.pattern.pieces.values().any(|piece| piece.placement.is_some());
-    let has_marks = document.marks.pairs().next().is_some() && arguments.start != Some(Start::Placement);
-    if !(has_marks || is_placed || arguments.start.is_some() || document.pattern.pieces.is_empty()) {
+    let has_marks = document.marks.pairs().next().is_some() && choice.only != Some(Start::Placement);
+    if !(has_marks || is_placed || choice.only.is_some() || document.pattern.pieces.is_empty()) {
         return Err(Failure::input(project, no_start(&document.pattern)));
     }
     if has_marks || document.pattern.pieces.is_empty() {
         return wrap(session, project, seconds);
     }
-    let choice = StartChoice { only: arguments.start, draped: arguments.drape };
     begin(session, project, seconds, Command::Dress { choice })
 }
 
@@ -128,7 +128,7 @@ fn named(tried: &Tried) -> String {
 }
 
 /// Begins the wrap; the error says why it cannot begin.
-pub fn wrap(session: &mut Session, project: &Path, seconds: &mut Seconds) -> Result<(), Failure> {
+fn wrap(session: &mut Session, project: &Path, seconds: &mut Seconds) -> Result<(), Failure> {
     begin(session, project, seconds, Command::Wrap)
 }
 

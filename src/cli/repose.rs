@@ -12,6 +12,7 @@ use crate::cli::seconds::{Begun, Seconds};
 use crate::cli::{dress_one, files, formats, input, interrupt, output, report, run};
 use crate::io::joints;
 use crate::session::{BodyChoice, Command, Notice, Session, project_file};
+use crate::sim::StartChoice;
 
 /// Carries the garment to each pose in turn, always from the dressed one. A pose that fails a check gives the exit code.
 pub fn repose(arguments: &Repose) -> Result<(), Failure> {
@@ -137,7 +138,8 @@ pub fn dress_first(session: &mut Session, arguments: &Repose, seconds: &mut Seco
         return Ok(());
     }
     output::complain(&format!("{}: not dressed yet: dressing it first", arguments.project.display()));
-    dress_one::wrap(session, &arguments.project, seconds)?;
+    let choice = StartChoice { only: None, draped: arguments.drape };
+    dress_one::dress_by(session, &arguments.project, choice, seconds)?;
     run::to_rest(session, arguments.max_ticks, seconds)
 }
 

@@ -13,6 +13,7 @@ use crate::geometry::parallel::LEAST_SEARCHES;
 use crate::geometry::rebuild::Rebuild;
 use crate::relax::step::{HEAVY_CONTACT, STEP_CAP};
 use crate::relax::{Acceleration, GlobalStep, RelaxSettings, Relaxer, global};
+use crate::repose::conform::carried;
 use crate::repose::distance_map::DistanceMap;
 use crate::repose::excess::Lengths;
 use crate::repose::folds::Folds;
@@ -94,6 +95,20 @@ impl Reposer {
     /// Self-intersections of the cloth in `state`.
     pub(super) fn crossings_of(&self, state: &ClothState) -> usize {
         Intersections::new(&self.relaxer.garment, state).places.len()
+    }
+
+    /// The cloth as it was bound.
+    pub fn cloth(&self) -> &ClothState {
+        &self.cloth
+    }
+
+    /// The displacement of each vertex of `cloth`, metres, that goes along with the body from `from` to `to`, a pose a little further
+    /// on: with the skin near it, and with its triangles in their shape as far as can be.
+    pub fn along(&mut self, from: &Surface, to: &Surface, cloth: &ClothState) -> Vec<DVec3> {
+        let map = DistanceMap::new(from, cloth);
+        let mut carried = carried(&map, from, to, &cloth.positions);
+        self.transfer.join(&self.relaxer.garment, cloth, &mut carried, &mut self.relaxer.counters);
+        carried.iter().zip(&cloth.positions).map(|((there, _), here)| *there - *here).collect()
     }
 
     /// Work counters.

@@ -158,9 +158,9 @@ pub struct Snapshot {
 }
 
 impl DrapeState {
-    /// Progress, 0..=1: the residual on a logarithmic scale from 1 (free fall) to 0.01 (at rest).
+    /// Progress, 0..=1: the share of the way, else the residual on a logarithmic scale from 1 (free fall) to 0.01 (at rest).
     pub fn progress(&self) -> f64 {
-        (-self.residual.max(f64::MIN_POSITIVE).log10() / 2.0).clamp(0.0, 1.0)
+        self.way.unwrap_or_else(|| (-self.residual.max(f64::MIN_POSITIVE).log10() / 2.0).clamp(0.0, 1.0))
     }
 }
 
@@ -183,6 +183,9 @@ pub struct DrapeState {
     pub substeps: usize,
     /// Whether a graphics card has moved the cloth.
     pub card: bool,
+    /// While it is draped along the way to another pose: the share that lies behind, 0..=1.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub way: Option<f64>,
 }
 
 impl Snapshot {

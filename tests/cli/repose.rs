@@ -2,6 +2,7 @@
 
 use glam::{DQuat, DVec3};
 
+use crate::common::placed_project;
 use crate::program::Place;
 
 /// Vertices of an OBJ file.
@@ -53,6 +54,20 @@ fn cloth_goes_along_with_a_body_that_turns() {
     };
     let [before, after] = ["out", "posed"].map(met);
     assert!((0..2).all(|i| (before[i] - after[i]).abs() < 1e-4), "{before:?} {after:?}");
+}
+
+#[test]
+fn a_project_without_marks_is_dressed_first_as_dress_would() {
+    let place = Place::new();
+    place.save("tube.toile", &placed_project(0.39, 0.33));
+    place.ends(0, "dress tube.toile --out out");
+    let there = |p: DVec3| p + DVec3::X * 0.1;
+    place.write("posed.obj", moved(&place.read("out/body.obj"), there));
+    let done = place.ends(0, "repose tube.toile --body posed.obj --unit m --out posed");
+    assert!(done.err.contains("not dressed yet: dressing it first"), "{done:#?}");
+    let of = |folder: &str| vertices(&place.read(&format!("{folder}/garment.obj")));
+    let far = of("out").into_iter().zip(of("posed")).map(|(p, q)| there(p).distance(q));
+    assert!(far.fold(0.0, f64::max) < 1e-4);
 }
 
 #[test]

@@ -28,7 +28,7 @@ impl DrapedGarment {
     /// once no face is too near.
     pub(super) fn lift(&mut self, cloth: &ClothState, precise: bool) {
         let fixed = Arc::clone(&self.fixed);
-        let (garment, surface) = (&*fixed.garment, &*fixed.collider.surface);
+        let (garment, surface) = (&*fixed.garment, &*self.collider.surface);
         let mut near = vec![false; garment.vertex_count];
         for (v, is_near) in self.near_body().into_iter().enumerate() {
             near[fixed.vertices[v] as usize] = is_near;
@@ -62,7 +62,7 @@ impl DrapedGarment {
     /// Raises vertices of edges and faces that intersect the body by `by` metres: samples of a face miss the sharpest edges.
     fn lift_cuts(&mut self, cloth: &ClothState, raised: &mut [f64], by: f64) {
         let fixed = Arc::clone(&self.fixed);
-        let (garment, surface) = (&*fixed.garment, &*fixed.collider.surface);
+        let (garment, surface) = (&*fixed.garment, &*self.collider.surface);
         let laid = |vs: &[u32]| vs.iter().all(|&v| own_number(&fixed.own, v).is_some());
         let edges: Vec<[u32; 2]> = garment.adjacency.edges.iter().copied().filter(|e| laid(e)).collect();
         let triangles = garment.triangles.iter().copied().filter(|vs| laid(vs)).collect();

@@ -4,6 +4,7 @@
 //! the parts that hang free are short, and then few small steps suffice.
 
 mod calm;
+mod carry;
 pub mod clear;
 mod laid;
 mod lift;
@@ -105,8 +106,6 @@ struct Fixed {
     springs: Vec<Spring>,
     mass: Vec<f64>,
     friction: Vec<f64>,
-    collider: Collider,
-    obstacle: Arc<Obstacle>,
     offset: f64,
     thickness: f64,
     damping: f64,
@@ -116,6 +115,8 @@ struct Fixed {
 #[derive(Clone, Debug)]
 pub struct DrapedGarment {
     fixed: Arc<Fixed>,
+    collider: Arc<Collider>,
+    obstacle: Arc<Obstacle>,
     settings: DrapedSettings,
     small: SmallSteps,
     /// While pieces are being sewn: for each simulated vertex the vertex of the sewn garment that it will become. None otherwise.
@@ -256,6 +257,8 @@ impl DrapedGarment {
             card: None,
             was_on_card: false,
             counters: Counters::default(),
+            obstacle: Arc::new(Obstacle::of(&surface)),
+            collider: Arc::new(Collider::still(surface)),
             fixed: Arc::new(Fixed {
                 garment,
                 sheet,
@@ -265,8 +268,6 @@ impl DrapedGarment {
                 springs,
                 mass,
                 friction,
-                obstacle: Arc::new(Obstacle::of(&surface)),
-                collider: Collider::still(surface),
                 offset: thickness + SKIN,
                 thickness,
                 damping: damping + AIR,
@@ -280,14 +281,14 @@ impl DrapedGarment {
         if !self.settings.self_collision {
             return;
         }
-        let Fixed { sheet, obstacle, thickness, .. } = &*self.fixed;
+        let Fixed { sheet, thickness, .. } = &*self.fixed;
         let rest: Vec<f64> = (0..sheet.adjacency.edges.len()).map(|e| sheet.rest_length(e)).collect();
         self.small.separation = Some(Separation::new(
             &sheet.triangles,
             &sheet.adjacency,
             (&rest, *thickness),
             self.will_be.clone(),
-            Some(Arc::clone(obstacle)),
+            Some(Arc::clone(&self.obstacle)),
         ));
         self.part(&mut cloth.clone());
     }
@@ -441,7 +442,7 @@ impl DrapedGarment {
 
     /// Makes some small steps. True when they are the last of a tick.
     fn move_on(&mut self) -> Result<bool, Undrapable> {
-        let fixed = Arc::clone(&self.fixed);
+        let (fixed, collider) = (Arc::clone(&self.fixed), Arc::clone(&self.collider));
         let mut begun = match self.begun.take() {
             Some(begun) => begun,
             None => {
@@ -456,7 +457,7 @@ impl DrapedGarment {
             bending_damping: BENDING_DAMPING,
             gravity: if self.floats { DVec3::ZERO } else { GRAVITY },
             damping: fixed.damping + calming(self.progress.ticks, self.pace) + gentle(self.age),
-            collider: Some(&fixed.collider),
+            collider: Some(&collider),
             offset: fixed.offset,
             friction: &fixed.friction,
             grip,

@@ -9,6 +9,7 @@ use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use glam::DVec3;
 use rayon::prelude::*;
 
+use crate::body::Surface;
 use crate::card::{Body, Card, CardFault, CardSlot, CardSteps, Cloth, Hand, Span};
 use crate::drape::garment::{Begun, DrapedGarment, Fixed};
 use crate::drape::solver::small_steps::{Advance, EASE, Surroundings};
@@ -46,7 +47,8 @@ impl DrapedGarment {
             return self;
         }
         let Some(card) = slot.for_cloth(self.fixed.sheet.triangles.len()) else { return self };
-        match steps(&self.fixed, card, &self.state.positions, self.settings.strain) {
+        match steps((&self.fixed, &self.collider.surface), card, &self.state.positions, self.settings.strain)
+        {
             Ok(steps) => {
                 let substeps = (self.substeps as f64 * steps.slowness()).ceil() as usize;
                 self.card = Some(OnCard { steps: Arc::new(Mutex::new(steps)), substeps, pause: 0 });
@@ -69,7 +71,7 @@ impl DrapedGarment {
             card.pause = card.pause.saturating_sub(1);
             return None;
         }
-        if !self.small.is_clean(&self.state.positions, &self.fixed.collider) {
+        if !self.small.is_clean(&self.state.positions, &self.collider) {
             card.pause = PAUSE;
             return None;
         }
@@ -121,7 +123,7 @@ impl DrapedGarment {
 
     /// Which simulated vertices are near the body.
     pub(super) fn near_body(&self) -> Vec<bool> {
-        let Fixed { collider, offset, .. } = &*self.fixed;
+        let (collider, offset) = (&self.collider, self.fixed.offset);
         if self.card.is_none() {
             return self
                 .state
@@ -139,8 +141,13 @@ impl DrapedGarment {
     }
 }
 
-fn steps(fixed: &Fixed, card: &Arc<Card>, x: &[DVec3], limit: f64) -> Result<CardSteps, CardFault> {
-    let Fixed { sheet, bending, collider, .. } = fixed;
+fn steps(
+    (fixed, surface): (&Fixed, &Surface),
+    card: &Arc<Card>,
+    x: &[DVec3],
+    limit: f64,
+) -> Result<CardSteps, CardFault> {
+    let Fixed { sheet, bending, .. } = fixed;
     let rows: Vec<Vec<(u32, f64)>> = (0..sheet.len()).map(|v| bending.row(v).collect()).collect();
     let cloth = Cloth {
         triangles: &sheet.triangles,
@@ -153,7 +160,6 @@ fn steps(fixed: &Fixed, card: &Arc<Card>, x: &[DVec3], limit: f64) -> Result<Car
         friction: &fixed.friction,
         thickness: Some(fixed.thickness),
     };
-    let surface = &collider.surface;
     let normals = surface.pseudonormals();
     let body = Body { mesh: &surface.mesh, adjacency: &surface.adjacency, normals: &normals };
     CardSteps::new(Arc::clone(card), &cloth, Some(&body), x)

@@ -70,7 +70,6 @@ impl DrapedGarment {
 
     /// Makes a separation step with the displacements `ways`, and counts the `places` of self-intersection.
     fn go_on_parting(&mut self, (ways, places): (Vec<DVec3>, usize)) {
-        let fixed = Arc::clone(&self.fixed);
         let was = self.crossings;
         self.crossings = places;
         self.parting = match (places, self.parting) {
@@ -82,7 +81,7 @@ impl DrapedGarment {
             return;
         }
         let ways = self.of_own(|v| ways[v] * PARTING.way);
-        self.small.send(&mut self.state.positions, &fixed.collider, &ways);
+        self.small.send(&mut self.state.positions, &self.collider, &ways);
     }
 
     /// Maps `of` from garment vertices to simulated vertices; zero for pinned ones.
@@ -92,7 +91,7 @@ impl DrapedGarment {
     }
 
     /// Self-intersections. Those between the sides of an open seam are left out: the sides will be merged.
-    fn met(&self, cloth: &ClothState) -> Intersections {
+    pub(super) fn met(&self, cloth: &ClothState) -> Intersections {
         let garment = &*self.fixed.garment;
         let mut met = Intersections::new(garment, cloth);
         if let Some(will_be) = &self.will_be {
@@ -143,7 +142,6 @@ impl DrapedGarment {
                 *way -= normal * height.min(0.0);
             }
         }
-        let fixed = Arc::clone(&self.fixed);
-        self.small.send(&mut self.state.positions, &fixed.collider, &own);
+        self.small.send(&mut self.state.positions, &self.collider, &own);
     }
 }

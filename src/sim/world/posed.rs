@@ -19,8 +19,8 @@ const VERTICES_A_TICK: usize = 40_000;
 /// in: after any number of poses, it returns exactly to where it was.
 #[derive(Clone, Debug)]
 pub struct Posed {
-    reposer: Reposer,
-    cloth: Arc<ClothState>,
+    pub(super) reposer: Reposer,
+    pub(super) cloth: Arc<ClothState>,
     outcome: Outcome,
 }
 
@@ -43,7 +43,8 @@ pub struct Posing {
 pub enum Then {
     /// Nothing: the pose is a preview.
     Nothing,
-    /// Where the cloth intersects itself in more places than before, drapes it with these fabrics until it rests.
+    /// Where the cloth intersects itself in more places than before, drapes it with these fabrics until it rests; so too where it was
+    /// draped without a fault and has one in the new pose.
     Part(Arc<DrapeSource>),
     /// Drapes like [`Then::Part`] where that is needed, and settles the cloth otherwise.
     Settle(Arc<DrapeSource>),
@@ -178,8 +179,9 @@ impl World {
         (self.dressing, self.draping, self.was_sewn, self.hung_at) = (None, None, false, None);
         match then {
             Then::Part(fabrics) | Then::Settle(fabrics) if more_crossings => self.drape_posed(fabrics),
+            Then::Part(fabrics) => self.walk_if_worse(self.posed.clone(), &fabrics),
             Then::Settle(_) => self.settle(),
-            Then::Part(_) | Then::Nothing => {}
+            Then::Nothing => {}
         }
         self.part_active();
     }

@@ -111,6 +111,10 @@ fn phase_words(now: &FrameContext) -> String {
 /// State of draping in words: the residual force as a fraction of the cloth's weight.
 fn drape_words(drape: Option<DrapeState>) -> String {
     match drape {
+        Some(DrapeState { way: Some(way), .. }) => {
+            let percent = (way * 100.0).floor() as u32;
+            say!("Draping on the way to the pose: {percent} %", percent)
+        }
         Some(drape) if drape.runs => {
             let percent = number(drape.residual * 100.0, 1);
             match drape.card {
