@@ -185,8 +185,18 @@ fn garments_with_legs_and_gowns_of_the_gallery_are_dressed() {
 }
 
 #[test]
-fn the_childs_dress_the_dungarees_the_coat_and_the_shirt_are_dressed() {
-    check_put_on(None, &[Sample::ChildDress, Sample::Dungarees, Sample::Coat, Sample::Shirt]);
+fn the_coat_is_dressed() {
+    check_put_on(None, &[Sample::Coat]);
+}
+
+#[test]
+fn the_childs_dress_and_the_dungarees_are_dressed() {
+    check_put_on(None, &[Sample::ChildDress, Sample::Dungarees]);
+}
+
+#[test]
+fn the_shirt_is_dressed_coarsely_too() {
+    check_put_on(None, &[Sample::Shirt]);
 }
 
 /// The sample, dressed at edges of 30 mm.

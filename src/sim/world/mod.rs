@@ -7,7 +7,6 @@ pub(in crate::sim) mod posed;
 mod sewn;
 pub(in crate::sim) mod trials;
 mod trimmed;
-mod walk;
 
 use std::sync::Arc;
 
