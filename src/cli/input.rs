@@ -107,7 +107,8 @@ pub fn content(path: &Path, how: BodyFile, scale: Option<DrawingUnit>) -> Result
         return sample(path, name).map(|project| Content::Project(Box::new(project)));
     }
     let bytes = read(path)?;
-    if project_file::is_project(&bytes) {
+    let is_called_project = path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("toile"));
+    if is_called_project || project_file::is_project(&bytes) {
         return project_file::from_bytes(&bytes)
             .map(|project| Content::Project(Box::new(project)))
             .map_err(|e| project_failure(path, e));

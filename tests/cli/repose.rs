@@ -130,6 +130,12 @@ fn a_body_of_other_triangles_and_two_saves_are_refused_in_words() {
     assert!(refused.err.contains("other.obj"), "{refused:#?}");
     place.ends(2, "repose dressed.toile --body a.obj --body b.obj --out posed --save one.toile");
     place.ends(6, "repose dressed.toile --body nowhere.obj --out posed");
+    let refused = place.ends(2, "repose dressed.toile --out posed");
+    let ways = ["--body", "--pose", "--joint", "--joints", "--motion"];
+    assert!(ways.iter().all(|way| refused.err.contains(way)), "{refused:#?}");
+    place.write("notes.toile", "buy thread\n");
+    let refused = place.ends(3, "repose notes.toile --pose a --out posed");
+    assert!(!refused.err.contains("OBJ"), "{refused:#?}");
 }
 
 #[test]

@@ -61,6 +61,18 @@ fn a_command_that_cannot_be_chosen_says_why_in_the_palette() {
 }
 
 #[test]
+fn what_was_typed_in_one_piece_comes_before_its_letters_here_and_there() {
+    let mut window = window();
+    key(&mut window, Modifiers::NONE, Key::F3);
+    type_into(&mut window, "theme");
+    let chosen = window
+        .query_all_by_label_contains("Command ")
+        .find(|row| row.accesskit_node().toggled() == Some(egui::accesskit::Toggled::True));
+    let label = chosen.and_then(|row| row.accesskit_node().label()).expect("a row is chosen");
+    assert!(label != "Command Use the mannequin", "{label}");
+}
+
+#[test]
 fn the_palette_is_walked_through_with_arrows() {
     let mut window = window();
     key(&mut window, Modifiers::COMMAND, Key::P);

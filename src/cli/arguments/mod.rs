@@ -10,7 +10,7 @@ mod techpack;
 use std::ops::Range;
 use std::path::{Path, PathBuf};
 
-use clap::{Args, Parser, Subcommand};
+use clap::{ArgGroup, Args, Parser, Subcommand};
 
 use crate::body::pose::anatomy::JointAngle;
 use crate::body::{NamedPose, Unit, UpAxis};
@@ -315,23 +315,24 @@ pub struct Simulate {
 /// A project without dressed cloth is dressed first. The body of each pose has the triangles of the dressed one, vertex for
 /// vertex. With several poses, each starts from the dressed one and gets its own folder.
 #[derive(Debug, Args)]
+#[command(group(ArgGroup::new("where").required(true).multiple(true)))]
 pub struct Repose {
     /// Dressed project, as saved by dress --save; or a sample (sample:NAME)
     pub project: PathBuf,
     /// The body in another pose (OBJ, glTF); several times for several poses
-    #[arg(long = "body", value_name = "FILE", required_unless_present_any = ["poses", "joints", "joint_files", "motion"])]
+    #[arg(long = "body", value_name = "FILE", group = "where")]
     pub bodies: Vec<PathBuf>,
     /// The mannequin in this pose: a, t, standing, walking, running, sitting, arms-up or kung-fu; several times for several
-    #[arg(long = "pose", value_name = "NAME")]
+    #[arg(long = "pose", value_name = "NAME", group = "where")]
     pub poses: Vec<NamedPose>,
     /// The mannequin with this joint turned, in degrees from hanging arms, straight limbs: left_elbow=60,
     /// right_hip.abduction=20 (flexion, abduction or twist); several times for one pose of several joints, on top of the
     /// pose that --pose names, or of the one it is in
-    #[arg(long = "joint", value_name = "JOINT=DEGREES", allow_hyphen_values = true)]
+    #[arg(long = "joint", value_name = "JOINT=DEGREES", group = "where", allow_hyphen_values = true)]
     pub joints: Vec<JointAngle>,
     /// Joint angles in a JSON file: {"left_elbow": 60, "right_hip": {"flexion": 30, "abduction": 20}}; several times for several
     /// poses
-    #[arg(long = "joints", value_name = "JSON")]
+    #[arg(long = "joints", value_name = "JSON", group = "where")]
     pub joint_files: Vec<PathBuf>,
     #[command(flatten)]
     pub body_file: BodyFile,
@@ -341,7 +342,7 @@ pub struct Repose {
     pub sequence: bool,
     /// Takes the frames of a motion, and writes the same files as --sequence: motion capture (BVH) moves the mannequin, its
     /// joints found by name; glTF holds an animated body
-    #[arg(long, value_name = "FILE", conflicts_with_all = ["bodies", "poses", "joints", "joint_files", "settle", "save"])]
+    #[arg(long, value_name = "FILE", group = "where", conflicts_with_all = ["bodies", "poses", "joints", "joint_files", "settle", "save"])]
     pub motion: Option<PathBuf>,
     /// The animation in the glTF file, by its name or by its number from 1; if left out, the first
     #[arg(long, value_name = "NAME_OR_NUMBER", requires = "motion")]

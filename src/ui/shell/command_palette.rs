@@ -161,9 +161,13 @@ pub fn found(text: &str, now: &FrameContext) -> Vec<Action> {
             if translated(row.text).is_some() {
                 names.push((row.menu.to_owned(), row.text.to_owned()));
             }
+            // What was typed in one piece counts more than its letters here and there.
+            let typed = text.trim().to_lowercase();
+            let whole = |words: &str| u32::from(words.to_lowercase().contains(&typed)) * 1000;
             let scores = names.iter().filter_map(|(menu, name)| {
-                let place = score(&format!("{menu} {name}")).map(|s| s * 2);
-                score(name).map(|s| s * 4).max(place)
+                let both = format!("{menu} {name}");
+                let place = score(&both).map(|s| s * 2 + whole(&both));
+                score(name).map(|s| s * 4 + 2 * whole(name)).max(place)
             });
             scores.max().map(|score| (score, action))
         })

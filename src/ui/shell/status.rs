@@ -100,7 +100,12 @@ fn phase_words(now: &FrameContext) -> String {
         _ if now.wrapping && now.phase != Some(Phase::Growing) => tr("Cutting the cloth").to_owned(),
         None => tr("No cloth on the body").to_owned(),
         Some(_) if now.dragging => tr("In your hand").to_owned(),
-        Some(_) if now.drape.is_some_and(|drape| !drape.waits) => drape_words(now.drape),
+        // A change of pose goes on while draping is paused.
+        Some(phase)
+            if now.drape.is_some_and(|drape| !drape.waits && (drape.runs || phase == Phase::AtRest)) =>
+        {
+            drape_words(now.drape)
+        }
         Some(_) if !now.relaxing => tr("Held still").to_owned(),
         Some(Phase::Growing) => say!("Growing {percent} %", percent),
         Some(Phase::Settling) => say!("Settling {percent} %", percent),

@@ -166,7 +166,7 @@ impl PatternTool for OnEdgeTool {
     fn hint(&self, _table: &Table<'_>) -> String {
         match (self.is_dart, self.pulled.is_some()) {
             (true, true) => tr("Let go at the tip · Type how deep · Esc: give up"),
-            (true, false) => tr("Drag from an edge into the cloth: a dart · Click: one as deep as the last · Type how far along the edge"),
+            (true, false) => tr("Drag from an edge into the cloth: a dart · Click: one as deep as Depth says · Type how far along the edge"),
             _ => tr("Click an edge: a notch; a notch: take it away · Type how far along the edge"),
         }
         .to_owned()

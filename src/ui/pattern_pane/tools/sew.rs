@@ -6,7 +6,7 @@ use glam::DVec2;
 use super::select::next;
 use super::{PatternTool, done};
 use crate::geometry::ids::SeamId;
-use crate::pattern::edit::{PatternEdit, untwisted};
+use crate::pattern::edit::{PatternEdit, apply, untwisted};
 
 use crate::pattern::{EdgeRef, Pattern, Piece, Seam, Stretch};
 use crate::ui::actions::asks::{Ask, Asks};
@@ -57,8 +57,10 @@ impl Sew {
         let sew = |seam: &Seam| PatternEdit::Sew {
             seam: with_ratio(table.pattern(), *seam, table.options.keep_equal),
         };
+        // Where a seam is refused, the refusal is told and no more.
+        let is_sewn = seams.iter().all(|seam| apply(table.pattern(), &sew(seam)).is_ok());
         asks.push(done(seams.iter().map(sew).collect()));
-        if let Some(words) = told_difference(table, &self.sides) {
+        if let Some(words) = told_difference(table, &self.sides).filter(|_| is_sewn) {
             asks.push(Ask::Say(words));
         }
         *self = Self::default();
