@@ -89,11 +89,10 @@ impl Causes {
 }
 
 /// Determines the cause of each strained edge.
-pub(super) fn causes(garment: &Garment, laid: &Laid, body: &BodyIndex<'_>) -> Causes {
+pub(super) fn causes(garment: &Garment, laid: &Laid, body: &BodyIndex<'_>, edges: &[Edge]) -> Causes {
     let sides = unequal_sides(garment);
-    let edges = edges(garment, laid);
     let mut about: BTreeMap<u32, [f64; 2]> = BTreeMap::new();
-    for edge in &edges {
+    for edge in edges {
         for v in edge.ends {
             let sum = about.entry(v).or_default();
             *sum = [sum[0] + edge.worn - edge.flat, sum[1] + edge.flat];
@@ -105,7 +104,7 @@ pub(super) fn causes(garment: &Garment, laid: &Laid, body: &BodyIndex<'_>) -> Ca
         body.surface().nearest(p).point.distance(p) < ON_SKIN
     };
     let mut causes = Causes::default();
-    for edge in &edges {
+    for edge in edges {
         let strain = edge.worn / edge.flat - 1.0;
         if strain.abs() <= STRAINED {
             continue;
@@ -124,9 +123,8 @@ pub(super) fn causes(garment: &Garment, laid: &Laid, body: &BodyIndex<'_>) -> Ca
 }
 
 /// 99th percentile of |l / l0 - 1|, without edges eased on a seam of unequal sides: there a gather is intended.
-pub(super) fn uneased_p99(garment: &Garment, laid: &Laid) -> f64 {
+pub(super) fn uneased_p99(garment: &Garment, edges: &[Edge]) -> f64 {
     let sides = unequal_sides(garment);
-    let edges = edges(garment, laid);
     let uneased = edges.iter().filter(|edge| !is_eased(edge, &sides));
     let mut strains: Vec<f64> = uneased.map(|edge| (edge.worn / edge.flat - 1.0).abs()).collect();
     strains.sort_unstable_by(f64::total_cmp);
@@ -141,13 +139,14 @@ fn is_eased(edge: &Edge, sides: &BTreeMap<[u32; 2], [f64; 2]>) -> bool {
 }
 
 /// An edge of the laid cloth: one between two triangles of a piece is listed once, one on a seam once for each side.
-struct Edge {
+pub(super) struct Edge {
     ends: [u32; 2],
     flat: f64,
     worn: f64,
 }
 
-fn edges(garment: &Garment, laid: &Laid) -> Vec<Edge> {
+/// The edges of the laid cloth.
+pub(super) fn edges(garment: &Garment, laid: &Laid) -> Vec<Edge> {
     let mut sides: Vec<[u32; 2]> = laid
         .corners
         .iter()
@@ -186,8 +185,8 @@ fn unequal_sides(garment: &Garment) -> BTreeMap<[u32; 2], [f64; 2]> {
 }
 
 /// The length of an edge on its flat piece, metres, by its vertices; on a seam that of the shorter side.
-pub(super) fn flat_lengths(garment: &Garment, laid: &Laid) -> impl Fn([u32; 2]) -> f64 + use<> {
-    let mut all: Vec<([u32; 2], f64)> = edges(garment, laid).iter().map(|e| (e.ends, e.flat)).collect();
+pub(super) fn flat_lengths(edges: &[Edge]) -> impl Fn([u32; 2]) -> f64 + use<> {
+    let mut all: Vec<([u32; 2], f64)> = edges.iter().map(|e| (e.ends, e.flat)).collect();
     all.sort_by(|a, b| a.0.cmp(&b.0).then(a.1.total_cmp(&b.1)));
     move |[a, b]| {
         let ends = [a.min(b), a.max(b)];
@@ -221,7 +220,8 @@ pub(super) fn smaller(
     found
 }
 
-/// The opening against the girth nearest to it, which is of a left limb: both sides are taken to be alike. None far from all of them.
+/// The opening against the girth nearest to it, which is of a left limb: both sides are taken to be alike. None far from all of them,
+/// or where it is too short to go round.
 fn narrow(opening: &Opening, readings: &[Reading]) -> Option<Smaller> {
     let middle = readings.iter().find_map(|reading| reading.tape.as_ref()).map(|tape| tape.origin.x)?;
     let p = opening.middle;
@@ -229,9 +229,9 @@ fn narrow(opening: &Opening, readings: &[Reading]) -> Option<Smaller> {
     let far =
         |reading: &Reading| reading.tape.as_ref().map_or(f64::INFINITY, |tape| tape.origin.distance(left));
     let nearest = readings.iter().min_by(|a, b| far(a).total_cmp(&far(b)))?;
-    // Between two girths of a limb there may be a thinner place.
-    let is_near = far(nearest) < 0.1;
-    is_near.then(|| Smaller {
+    // Between two girths of a limb there may be a thinner place, and a hole in a seam is no sleeve.
+    let goes_round = far(nearest) < 0.1 && opening.flat_length > nearest.metres / 2.0;
+    goes_round.then(|| Smaller {
         place: nearest.name.to_owned(),
         body: nearest.metres,
         pattern: opening.flat_length,
@@ -250,7 +250,8 @@ mod tests {
 
     fn of(laid: &Sheets) -> Causes {
         let Sheets { garment, state, surface, .. } = laid;
-        causes(garment, &Laid::new(garment, state), &BodyIndex::new(surface))
+        let laid = Laid::new(garment, state);
+        causes(garment, &laid, &BodyIndex::new(surface), &edges(garment, &laid))
     }
 
     #[test]
@@ -301,7 +302,7 @@ mod tests {
         };
         let Sheets { garment, state, .. } = &mut laid;
         garment.corners.iter().for_each(|c| state.positions[c.vertex as usize] = taper(c));
-        let uneased = uneased_p99(garment, &Laid::new(garment, state));
+        let uneased = uneased_p99(garment, &edges(garment, &Laid::new(garment, state)));
         assert!((0.07..0.1 / 1.1 * 0.97).contains(&uneased), "{uneased}");
     }
 
@@ -321,6 +322,8 @@ mod tests {
             assert_eq!((&*found.place, found.body, found.pattern), ("upper arm", 0.31, 0.23));
         }
         assert_eq!(narrow(&opening(0.6), &readings), None, "far out");
+        let hole = Opening { flat_length: 0.05, ..opening(0.28) };
+        assert_eq!(narrow(&hole, &readings), None, "a hole in a seam");
     }
 
     fn square(height: f64) -> [DVec2; 4] {

@@ -3,7 +3,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use crate::cloth::{ClothState, Garment};
-use crate::fit::causes::{causes, flat_lengths, smaller, uneased_p99};
+use crate::fit::causes::{causes, edges, flat_lengths, smaller, uneased_p99};
 use crate::fit::fastenings::fastenings;
 use crate::fit::laid::Laid;
 use crate::fit::on_body::{BodyIndex, on_body};
@@ -25,7 +25,8 @@ pub fn measure(pattern: &Pattern, garment: &Garment, state: &ClothState, body: &
     let tree = laid.mesh.tree();
     let (strain, pieces) = shape::strain_and_pieces(garment, &laid);
     let (interior_edges, folded_edges) = shape::interior_and_folded_edges(&laid);
-    let sits = on_body(&laid, &tree, body, &applied(pattern), flat_lengths(garment, &laid));
+    let edges = edges(garment, &laid);
+    let sits = on_body(&laid, &tree, body, &applied(pattern), flat_lengths(&edges));
     let unmapped = (0..garment.vertex_count).filter(|&v| state.mapped.get(v) != Some(&true)).count();
     let mut report = Report {
         triangles: laid.mesh.triangles.len(),
@@ -33,8 +34,8 @@ pub fn measure(pattern: &Pattern, garment: &Garment, state: &ClothState, body: &
         unmapped_vertices: unmapped,
         not_finite_vertices: not_finite(garment, state),
         strain,
-        uneased_p99: uneased_p99(garment, &laid),
-        strain_causes: causes(garment, &laid, body),
+        uneased_p99: uneased_p99(garment, &edges),
+        strain_causes: causes(garment, &laid, body, &edges),
         pieces,
         seams: seams(pattern, garment, state),
         open_seams: open_seams(pattern, garment, state),
@@ -58,7 +59,7 @@ pub fn measure(pattern: &Pattern, garment: &Garment, state: &ClothState, body: &
     };
     // Measuring the body takes longer than all else, so it is done only for garments with faults.
     let is_tight = report.strain_causes.is_tight(report.strain.edges);
-    let missed: Vec<Opening> = report.openings.iter().copied().filter(|o| !o.body_through).collect();
+    let missed: Vec<Opening> = report.missed_openings().map(|(_, opening)| *opening).collect();
     if (is_tight || !missed.is_empty()) && !verdict(&report).is_empty() {
         report.strain_causes.smaller = smaller(garment, state, body, &missed);
     }

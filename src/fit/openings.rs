@@ -24,7 +24,8 @@ pub struct Opening {
     pub middle: DVec3,
 }
 
-/// The openings, longest first. `flat` gives the length of an edge on its flat piece, metres. `skin(t)` tells whether triangle `t` of `body` is on its outside; `tree` is over these triangles.
+/// The openings, longest first. `flat` gives the length of an edge on its flat piece, metres. `skin(t)` tells whether triangle `t` of
+/// `body` is on its outside; `tree` is over these triangles.
 pub(super) fn openings(
     cloth: &TriMesh,
     body: &TriMesh,

@@ -74,6 +74,16 @@ pub struct Report {
     pub openings: Vec<Opening>,
 }
 
+impl Report {
+    /// The openings through which the body should pass and does not, with their indices. A single border is that of a cloth or a
+    /// cape, through which it need not pass. A garment has several, and the body passes through each: where it does not, a sleeve is
+    /// on one side of its arm, or a seam has a hole.
+    pub fn missed_openings(&self) -> impl Iterator<Item = (usize, &Opening)> {
+        let all = if self.openings.len() < 2 { &[] } else { &self.openings[..] };
+        all.iter().enumerate().filter(|(_, opening)| !opening.body_through)
+    }
+}
+
 /// Summary of the seams.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Seams {

@@ -171,13 +171,8 @@ impl Faults {
         }
     }
 
-    /// A single border is that of a cloth or a cape, through which the body need not pass. A garment has several, and the body
-    /// passes through each: where it does not, a sleeve is on one side of its arm, or a seam has a hole.
     fn openings(&mut self, report: &Report) {
-        if report.openings.len() < 2 {
-            return;
-        }
-        for (i, opening) in report.openings.iter().enumerate().filter(|(_, o)| !o.body_through) {
+        for (i, opening) in report.missed_openings() {
             let (length, height) = (opening.length * 100.0, opening.height);
             self.tell(
                 Spot::Opening(i),

@@ -496,8 +496,7 @@ fn places(report: &Report, lies: Lies<'_>) -> usize {
 
 /// Whether the cloth is where draping cannot mend it.
 fn is_astray(report: &Report) -> bool {
-    let is_missed = report.openings.len() > 1 && report.openings.iter().any(|opening| !opening.body_through);
-    is_missed || report.pieces.iter().any(|piece| piece.missing_triangles > 0)
+    report.missed_openings().next().is_some() || report.pieces.iter().any(|piece| piece.missing_triangles > 0)
 }
 
 #[cfg(test)]
