@@ -54,6 +54,7 @@ pub fn measure(pattern: &Pattern, garment: &Garment, state: &ClothState, body: &
         flipped_faces: sits.flipped_faces,
         faces_in_folds: sits.faces_in_folds,
         faces_between: sits.faces_between,
+        faces_beside: sits.faces_beside,
         clearance: sits.clearance,
         openings: sits.openings,
     };

@@ -1,5 +1,6 @@
 //! Measurements of a garment: strain, intersections, openings, the report, maps.
 
+mod beside;
 mod causes;
 mod compare;
 pub mod exact;

@@ -8,6 +8,7 @@ use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
 use crate::body::Surface;
+use crate::fit::beside::{Beside, beside};
 use crate::fit::laid::Laid;
 use crate::fit::openings::{Opening, openings};
 use crate::fit::shape::quantile;
@@ -114,6 +115,7 @@ pub(super) struct OnBody {
     pub flipped_faces: usize,
     pub faces_in_folds: usize,
     pub faces_between: usize,
+    pub faces_beside: usize,
     pub clearance: Clearance,
     pub openings: Vec<Opening>,
 }
@@ -138,7 +140,11 @@ pub(super) fn on_body(
     let (distances, penetrating_vertices) = distances(laid, body);
     let cut = cut_faces(laid, &through_body, &through_cloth, &penetrating_vertices);
     let wrong = wrong_side_out(laid, body);
-    let folded = in_folds(laid, cloth_tree, body, &wrong);
+    let beside = beside(laid, &wrong);
+    let is_smooth = |t: usize| beside[t] == Beside::Smooth;
+    let mut folded = in_folds(laid, cloth_tree, body, &wrong);
+    folded.retain(|(t, _)| !is_smooth(*t));
+    let hangs = |t: usize| beside[t] == Beside::Crumpled || is_between(laid, body, t);
     OnBody {
         penetration: penetration(laid, body, &distances, &cut),
         edges_through_body: through_body.iter().filter(|&&[_, t]| body.is_skin(t)).count(),
@@ -146,7 +152,8 @@ pub(super) fn on_body(
         faces_near_body: wrong.iter().filter(|f| f.is_some()).count(),
         flipped_faces: wrong.iter().filter(|f| **f == Some(true)).count(),
         faces_in_folds: folded.iter().filter(|(_, folded)| *folded).count(),
-        faces_between: folded.iter().filter(|(t, folded)| !folded && is_between(laid, body, *t)).count(),
+        faces_beside: (0..wrong.len()).filter(|&t| is_smooth(t)).count(),
+        faces_between: folded.iter().filter(|(t, folded)| !folded && hangs(*t)).count(),
         clearance: Clearance { median: quantile(&distances, 0.5), p95: quantile(&distances, 0.95) },
         openings: openings(&garment, body_mesh, body.winding.tree(), flat, |t| body.is_skin(t)),
     }

@@ -65,9 +65,14 @@ pub struct Report {
     /// Flipped triangles that are in folds: above or below them is cloth the right way round.
     #[serde(default)]
     pub faces_in_folds: usize,
-    /// Flipped triangles outside of folds that hang between two parts of the body: skin faces their inner side too.
+    /// Flipped triangles outside of folds that hang between two parts of the body, where skin faces their inner side too, or
+    /// crumpled beside other skin.
     #[serde(default)]
     pub faces_between: usize,
+    /// Flipped triangles of smooth cloth with other skin, such as a hand, beside them; they are not counted
+    /// above.
+    #[serde(default)]
+    pub faces_beside: usize,
     /// Distances of the vertices from the skin.
     pub clearance: Clearance,
     /// Openings (hems, neck, cuffs), longest first.
@@ -75,6 +80,13 @@ pub struct Report {
 }
 
 impl Report {
+    /// Flipped triangles that are a fault: cloth beside other skin is none, nor are folds and cloth between two parts of the body
+    /// where it was `draped`.
+    pub fn wrong_side_out(&self, draped: bool) -> usize {
+        let hangs_so = if draped { self.faces_in_folds + self.faces_between } else { 0 };
+        self.flipped_faces - self.faces_beside - hangs_so
+    }
+
     /// The openings through which the body should pass and does not, with their indices. A single border is that of a cloth or a
     /// cape, through which it need not pass. A garment has several, and the body passes through each: where it does not, a sleeve is
     /// on one side of its arm, or a seam has a hole.

@@ -203,7 +203,8 @@ pub(super) fn pieces_in_space(laid: &Laid) -> usize {
     laid.used.iter().filter(|&&v| root(&mut parent, v) == v).count()
 }
 
-fn root(parent: &mut [u32], mut v: u32) -> u32 {
+/// The set that `v` belongs to, in a forest of disjoint sets.
+pub(super) fn root(parent: &mut [u32], mut v: u32) -> u32 {
     while parent[v as usize] != v {
         parent[v as usize] = parent[parent[v as usize] as usize];
         v = parent[v as usize];

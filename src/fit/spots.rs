@@ -5,6 +5,7 @@ use std::collections::BTreeSet;
 use glam::DVec3;
 
 use crate::cloth::{ClothState, Garment};
+use crate::fit::beside::{Beside, beside};
 use crate::fit::laid::Laid;
 use crate::fit::on_body::{BodyIndex, wrong_side_out};
 use crate::geometry::borders::border_loops;
@@ -52,8 +53,11 @@ impl Spot {
             Self::Through => through(&laid, body),
             Self::WrongSide => {
                 let wrong = wrong_side_out(&laid, body);
-                let faces = laid.mesh.triangles.iter().zip(wrong).filter(|(_, wrong)| *wrong == Some(true));
-                faces.flat_map(|(t, _)| *t).collect()
+                let beside = beside(&laid, &wrong);
+                let faces = laid.mesh.triangles.iter().zip(wrong).zip(beside);
+                let faces =
+                    faces.filter(|((_, wrong), beside)| *wrong == Some(true) && *beside != Beside::Smooth);
+                faces.flat_map(|((t, _), _)| *t).collect()
             }
             Self::Crossing => {
                 let found = self_crossings(&laid.mesh, &laid.edges, &laid.mesh.tree());

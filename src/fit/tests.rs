@@ -177,6 +177,29 @@ fn loose_cloth_between_two_limbs_is_told_from_cloth_inside_out() {
     assert!(faults(&report, true).iter().all(|(fault, _)| !fault.words.contains("wrong side out")));
 }
 
+/// A skirt shows its outer side to the hand beside it, however far the legs are from its inner side.
+#[test]
+fn cloth_beside_a_hand_is_told_from_cloth_inside_out() {
+    let r = exact_radius();
+    let beside_hand = |map: fn(DVec3) -> DVec3| {
+        let mut body = cylinder(r - 0.01, 0.2, 1.2, 48, 20);
+        let (hand, first) = (cylinder(0.02, 0.6, 0.75, 24, 6), body.positions.len() as u32);
+        body.positions.extend(hand.positions.iter().map(|p| *p + DVec3::X * (r + 0.023)));
+        body.triangles.extend(hand.triangles.iter().map(|t| t.map(|v| v + first)));
+        report(&sleeve(r, map), body)
+    };
+    let smooth = beside_hand(|p| p);
+    assert!(smooth.flipped_faces > 10, "{}", smooth.flipped_faces);
+    assert_eq!((smooth.faces_beside, smooth.wrong_side_out(false)), (smooth.flipped_faces, 0));
+    // Turned over where nothing is beside it: there are creases round that.
+    let turned = beside_hand(|p| {
+        let is_turned = p.x < 0.0 && p.y > 0.6 && p.y < 0.7 && p.z.abs() < 0.05;
+        if is_turned { p * DVec3::new(1.0, 1.0, -1.0) } else { p }
+    });
+    let left = turned.wrong_side_out(false);
+    assert!(turned.faces_beside == smooth.faces_beside && left > 10, "{} {left}", turned.faces_beside);
+}
+
 #[test]
 fn what_lies_much_lower_than_it_was_placed_has_fallen_down() {
     let placed = |by: f64, placed: bool| {

@@ -160,8 +160,7 @@ impl Faults {
             };
             self.tell(Spot::Through, words!("body"), words);
         }
-        let lies_so = if draped { report.faces_in_folds + report.faces_between } else { 0 };
-        let n = report.flipped_faces - lies_so;
+        let n = report.wrong_side_out(draped);
         if n > 0 {
             let words = match n {
                 1 => words!("1 triangle lies wrong side out"),

@@ -486,12 +486,11 @@ fn begun(start: Start, trials: &Trials) -> Result<World, Words> {
 
 /// Number of places with faults.
 fn places(report: &Report, lies: Lies<'_>) -> usize {
-    let folds = if lies.draped { report.faces_in_folds + report.faces_between } else { 0 };
     let inside = report.penetration.vertices + report.penetration.faces;
     let through = report.edges_through_body + report.body_edges_through_garment;
     let cloth = report.self_crossings + report.degenerate_faces + report.strain.doubled;
     let missing: usize = report.pieces.iter().map(|piece| piece.missing_triangles).sum();
-    inside + through + cloth + missing + report.seams.open + (report.flipped_faces - folds)
+    inside + through + cloth + missing + report.seams.open + report.wrong_side_out(lies.draped)
 }
 
 /// Whether the cloth is where draping cannot mend it.
