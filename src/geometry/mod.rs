@@ -7,6 +7,7 @@ pub mod barycentric;
 pub mod borders;
 pub mod bvh;
 pub mod bvh4;
+pub mod conjugate_gradients;
 pub mod crossings;
 pub mod factor;
 pub mod ids;

@@ -32,7 +32,7 @@ const STRAINS: Strains = Strains { exact: 1e-6, spreadable: 0.03, too_tight: 0.0
 /// to do the rest, and follow each repair. Chosen by trial.
 const FEW_STEPS: usize = 2 * STEPS_PER_LOOK;
 /// Cost of conforming, in global steps. Work is cut into ticks by it; no result depends on it.
-const COST_OF_CARRYING: usize = 8;
+const COST_OF_CARRYING: usize = FEW_STEPS;
 /// Cost of one round of strain limiting, in global steps. See [`COST_OF_CARRYING`].
 const COST_OF_LIMITING: usize = 2;
 
@@ -87,6 +87,8 @@ struct Spreading {
     left: usize,
     /// Rounds left in this pass, each with contacts found anew.
     rounds: usize,
+    /// Whether a face was too near the body at the end of the last pass.
+    cuts: bool,
 }
 
 /// The way through intermediate poses.
@@ -259,7 +261,7 @@ impl Change {
         }
         // Folds do not go away by strain limiting.
         let by_steps = self.at_once && self.care.most_substeps > 0;
-        let folded = by_steps && reposer.folds.count(&self.state) > reposer.folds.bound;
+        let folded = by_steps && reposer.folds.count(&self.state) > reposer.folds.most;
         self.stage = if folded { Stage::SetOut } else { Stage::Spread(None) };
         1
     }
@@ -274,7 +276,8 @@ impl Change {
                 let (before, left) = (self.state.clone(), self.care.passes);
                 let live = self.care.mends == 0 && was > self.care.excess;
                 let rounds = if live { self.care.rounds } else { 0 };
-                self.stage = Stage::Spread(Some(Box::new(Spreading { before, was, left, rounds })));
+                self.stage =
+                    Stage::Spread(Some(Box::new(Spreading { before, was, left, rounds, cuts: false })));
             }
             return 1;
         };
@@ -282,15 +285,17 @@ impl Change {
             let limited = limited(&reposer.lengths, &mut reposer.relaxer, &mut self.state, self.care.excess);
             spreading.rounds = if limited { 0 } else { spreading.rounds - 1 };
             if spreading.rounds == 0 && self.care.mends > 0 {
-                match reposer.lift_faces(&self.state) {
-                    0 => spreading.left = 0,
-                    _ => raised(&mut reposer.relaxer, &mut self.state),
+                spreading.cuts = reposer.lift_faces(&self.state) > 0;
+                match spreading.cuts {
+                    true => raised(&mut reposer.relaxer, &mut self.state),
+                    false => spreading.left = 0,
                 }
             }
             self.stage = Stage::Spread(Some(spreading));
             return COST_OF_LIMITING;
         }
-        if spreading.left > 0 && reposer.lengths.p99(&self.state) > self.care.excess {
+        let is_done = !spreading.cuts && reposer.lengths.p99(&self.state) <= self.care.excess;
+        if spreading.left > 0 && !is_done {
             (spreading.left, spreading.rounds) = (spreading.left - 1, self.care.rounds);
             self.stage = Stage::Spread(Some(spreading));
         } else if reposer.lengths.p99(&self.state) > spreading.was {

@@ -11,6 +11,8 @@ pub(super) struct Folds {
     faces: Vec<[[u32; 3]; 2]>,
     /// Folded edges when the cloth was bound.
     pub bound: usize,
+    /// Folded edges up to which the cloth counts as no more folded than then.
+    pub most: usize,
 }
 
 impl Folds {
@@ -22,8 +24,11 @@ impl Folds {
             _ => None,
         };
         let faces = (0..garment.adjacency.edges.len()).filter_map(sides).collect();
-        let mut folds = Self { faces, bound: 0 };
+        let mut folds = Self { faces, bound: 0, most: 0 };
         folds.bound = folds.count(cloth);
+        // Where sleeves come down some cloth has to fold. Intermediate poses leave such folds, too: 15 among the 15,000 inner edges of
+        // a T-shirt that comes to walking directly with 11.
+        folds.most = folds.bound + folds.faces.len() / 1000;
         folds
     }
 

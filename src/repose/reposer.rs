@@ -174,8 +174,9 @@ impl Reposer {
             return false;
         }
         self.relaxer.track(state, 2.0 * self.relaxer.offset());
-        self.lift_faces(state) == 0
-            && self.folds.count(state) <= self.folds.bound
+        // Faces that are too near the body may stay, not such that cut it.
+        self.relaxer.lift_faces(state, 0.0) == 0
+            && self.folds.count(state) <= self.folds.most
             && self.relaxer.part_layers(state) <= self.crossings
     }
 

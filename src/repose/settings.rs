@@ -25,7 +25,7 @@ pub struct ReposeSettings {
 impl ReposeSettings {
     /// Preview, computed every frame.
     pub const LIVE: Self =
-        Self { excess: 0.01, most_steps: 4, most_substeps: 0, mends: 0, passes: 0, rounds: 6 };
+        Self { excess: 0.01, most_steps: 4, most_substeps: 0, mends: 0, passes: 0, rounds: 9 };
     /// Final result.
     pub const THOROUGH: Self =
         Self { excess: 0.01, most_steps: 120, most_substeps: 12, mends: 3, passes: 6, rounds: 60 };

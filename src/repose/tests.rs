@@ -9,6 +9,7 @@ use crate::geometry::mesh::TriMesh;
 use crate::pattern::{EdgeRef, Pattern, Piece, Seam};
 use crate::relax::RelaxSettings;
 use crate::repose::excess::Lengths;
+use crate::repose::limit::limited;
 use crate::repose::transfer::Transfer;
 
 /// Radius and length of the arm, metres.
@@ -104,6 +105,24 @@ fn the_pose_it_was_dressed_in_leaves_every_bit() {
     let (reposed, outcome) = reposer.reposed(&same, ReposeSettings::THOROUGH).expect("the same body");
     assert_eq!(reposed, state);
     assert_eq!(outcome.steps, 0);
+}
+
+#[test]
+fn strain_beyond_its_limit_goes_and_no_vertex_is_left_in_the_body() {
+    let (_, bound, mut reposer, _) = reposer();
+    let middle = (SLEEVE[0] + SLEEVE[1]) / 2.0;
+    // A band of the sleeve is pressed together by up to 8 %, and some of it into the arm.
+    let pressed = |p: DVec3| {
+        let near = (-(p.y - middle).powi(2) / 0.003).exp();
+        DVec3::new(p.x * (1.0 - 0.12 * near), p.y - 0.03 * (p.y - middle) * near, p.z * (1.0 - 0.12 * near))
+    };
+    let mut state = ClothState { positions: bound.positions.iter().map(|&p| pressed(p)).collect(), ..bound };
+    assert!(reposer.lengths.p99(&state) > 0.03);
+    let (lengths, relaxer) = (reposer.lengths.clone(), &mut reposer.relaxer);
+    let rounds = (1..=20).find(|_| limited(&lengths, relaxer, &mut state, 0.01));
+    assert!(rounds.is_some(), "{}", lengths.p99(&state));
+    let closest = state.positions.iter().map(|p| p.x.hypot(p.z)).fold(f64::INFINITY, f64::min);
+    assert!(closest > ARM[0] * (std::f64::consts::PI / 48.0).cos(), "{closest}");
 }
 
 #[test]
