@@ -35,6 +35,10 @@ fn check(demo: Demo) {
         return println!("{demo:?}: made on {}, this is {}: not compared", recording.machine, machine());
     }
     assert_eq!(commands, again.commands.into_iter().map(|(.., command)| command).collect::<Vec<_>>());
+    if played == text {
+        // To the last hash: playing it once more would show nothing new.
+        return;
+    }
     let mut replay = Replay::new(recording);
     replay.run().unwrap_or_else(|e| panic!("{demo:?}: {e}"));
     assert!(replay.hashes_compared() > 1);
