@@ -64,6 +64,8 @@ impl Pacer {
             let (seconds, done) = (time - began, progress - from);
             (seconds > LONG && done > 0.0).then(|| (1.0 - progress) * seconds / done)
         });
+        // At the end, progress may stand still: no time is told then.
+        self.pace.left = self.pace.left.filter(|left| *left >= 0.5);
         self.pace
     }
 }

@@ -69,6 +69,10 @@ pub fn next_step(ctx: &egui::Context, now: &FrameContext) -> String {
             tr("Paint a mark on a piece and one on the body where it should lie, then press Wrap.").to_owned()
         };
     }
+    if now.drape.is_some_and(|drape| drape.way.is_some()) {
+        let key = key(Action::Undo);
+        return say!("The cloth is draped on its way to the pose · {key}: back to the pose before", key);
+    }
     let drag = Action::Choose(Tool::Drag(DragMode::Surface));
     let mut steps = vec![
         say!("{key}: drag the cloth", key = key(drag)),
@@ -92,7 +96,8 @@ fn pace_words(pace: &Pace) -> Option<String> {
 }
 
 fn phase_words(now: &FrameContext) -> String {
-    let percent = (now.progress * 100.0).floor() as u32;
+    // While work goes on, it is not all done.
+    let percent = (now.progress * 100.0).floor().min(99.0) as u32;
     match now.phase {
         Some(_) if now.trying.is_some() => {
             now.trying.map(|now| trying_words(now, percent)).unwrap_or_default()
@@ -120,6 +125,7 @@ fn drape_words(drape: Option<DrapeState>) -> String {
             let percent = (way * 100.0).floor() as u32;
             say!("Draping on the way to the pose: {percent} %", percent)
         }
+        Some(drape) if drape.runs && drape.residual > 1.0 => tr("Draping: far out of balance").to_owned(),
         Some(drape) if drape.runs => {
             let percent = number(drape.residual * 100.0, 1);
             match drape.card {
