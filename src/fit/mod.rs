@@ -28,7 +28,7 @@ pub use maps::{Map, MapKind, MapReader, Worn};
 pub use measured::measure;
 pub use on_body::{BodyIndex, Clearance, Penetration};
 pub use openings::Opening;
-pub use report::{Report, Seams};
+pub use report::{Moved, Report, Seams};
 pub use seams::SeamFit;
 pub use shape::{PieceChange, Strain};
 pub use short::{ShortSeam, short_seams};

@@ -79,11 +79,24 @@ pub struct Report {
     pub openings: Vec<Opening>,
 }
 
+/// How cloth came to where it lies.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Moved {
+    /// It was wrapped or sewn: it should lie smooth.
+    #[default]
+    Wrapped,
+    /// It was carried to another pose of the body: it may have folds.
+    Carried,
+    /// Physics moved it: it may have folds, and hangs on the body.
+    Draped,
+}
+
 impl Report {
     /// Flipped triangles that are a fault: cloth beside other skin is none, nor are folds and cloth between two parts of the body
-    /// where it was `draped`.
-    pub fn wrong_side_out(&self, draped: bool) -> usize {
-        let hangs_so = if draped { self.faces_in_folds + self.faces_between } else { 0 };
+    /// where it may have folds.
+    pub fn wrong_side_out(&self, moved: Moved) -> usize {
+        let may_fold = moved != Moved::Wrapped;
+        let hangs_so = if may_fold { self.faces_in_folds + self.faces_between } else { 0 };
         self.flipped_faces - self.faces_beside - hangs_so
     }
 

@@ -6,7 +6,7 @@ use crate::body::closest::closest_on_triangle;
 use crate::cloth::FlatPiece;
 use crate::fit::on_body::{NEAR, WRONG_SIDE};
 use crate::fit::{
-    Causes, Smaller, Tight, fallen, fallen_from, faults, tight_places, tightest, tops, verdict,
+    Causes, Moved, Smaller, Tight, fallen, fallen_from, faults, tight_places, tightest, tops, verdict,
 };
 use crate::geometry::mesh::TriMesh;
 use crate::pattern::{Button, EdgeRef, Piece, PiecePoint, Seam};
@@ -160,7 +160,7 @@ fn a_sleeve_turned_inside_out_is_found() {
     assert_eq!(report.flipped_faces, report.triangles);
     assert_eq!((report.faces_in_folds, report.faces_between), (0, 0));
     assert!(words(&report).contains("wrong side out"));
-    assert!(!faults(&report, true).is_empty(), "however it came to be so");
+    assert!(!faults(&report, Moved::Draped).is_empty(), "however it came to be so");
 }
 
 /// The side of a loose bodice beside an arm shows the arm its outer side, and the trunk its inner one.
@@ -174,7 +174,7 @@ fn loose_cloth_between_two_limbs_is_told_from_cloth_inside_out() {
     let report = report(&sleeve(r, |p| p), body);
     assert!(report.flipped_faces > 10, "{}", report.flipped_faces);
     assert_eq!((report.faces_in_folds, report.faces_between), (0, report.flipped_faces));
-    assert!(faults(&report, true).iter().all(|(fault, _)| !fault.words.contains("wrong side out")));
+    assert!(faults(&report, Moved::Draped).iter().all(|(fault, _)| !fault.words.contains("wrong side out")));
 }
 
 /// A skirt shows its outer side to the hand beside it, however far the legs are from its inner side.
@@ -190,13 +190,13 @@ fn cloth_beside_a_hand_is_told_from_cloth_inside_out() {
     };
     let smooth = beside_hand(|p| p);
     assert!(smooth.flipped_faces > 10, "{}", smooth.flipped_faces);
-    assert_eq!((smooth.faces_beside, smooth.wrong_side_out(false)), (smooth.flipped_faces, 0));
+    assert_eq!((smooth.faces_beside, smooth.wrong_side_out(Moved::Wrapped)), (smooth.flipped_faces, 0));
     // Turned over where nothing is beside it: there are creases round that.
     let turned = beside_hand(|p| {
         let is_turned = p.x < 0.0 && p.y > 0.6 && p.y < 0.7 && p.z.abs() < 0.05;
         if is_turned { p * DVec3::new(1.0, 1.0, -1.0) } else { p }
     });
-    let left = turned.wrong_side_out(false);
+    let left = turned.wrong_side_out(Moved::Wrapped);
     assert!(turned.faces_beside == smooth.faces_beside && left > 10, "{} {left}", turned.faces_beside);
 }
 
@@ -236,7 +236,9 @@ fn what_lies_much_lower_than_its_tops_were_has_fallen_down() {
 fn draped_cloth_that_touches_the_body_nowhere_has_fallen_off_it() {
     let report = report(&sleeve(exact_radius(), |p| p - DVec3::Y * 5.0), cylinder(0.05, 0.2, 1.2, 48, 20));
     let told = |draped: bool| {
-        faults(&report, draped).iter().any(|(fault, _)| fault.words.contains("touches the body nowhere"))
+        faults(&report, if draped { Moved::Draped } else { Moved::Wrapped })
+            .iter()
+            .any(|(fault, _)| fault.words.contains("touches the body nowhere"))
     };
     assert_eq!((told(true), told(false)), (true, false));
 }
@@ -262,12 +264,12 @@ fn a_fold_all_round_is_told_from_cloth_inside_out() {
         assert_eq!(report.faces_in_folds, report.flipped_faces, "crease at {across}");
     }
     let report = at(0.14);
-    let tells = |draped| {
-        let found = faults(&report, draped);
+    let tells = |moved| {
+        let found = faults(&report, moved);
         found.iter().any(|(problem, _)| problem.words.contains("wrong side out"))
     };
-    assert!(tells(false), "a wrap should not fold");
-    assert!(!tells(true));
+    assert!(tells(Moved::Wrapped), "a wrap should not fold");
+    assert!(!tells(Moved::Carried) && !tells(Moved::Draped));
 }
 
 #[test]

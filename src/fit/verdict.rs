@@ -1,6 +1,6 @@
 //! Faults of a dressed garment, in words.
 
-use crate::fit::report::Report;
+use crate::fit::report::{Moved, Report};
 use crate::fit::spots::Spot;
 use crate::geometry::problem::{Problem, ProblemKind};
 use crate::geometry::words::{Words, decimal, words};
@@ -19,18 +19,18 @@ const MOST_NAMED: usize = 3;
 
 /// Every fault of a dressed garment; empty when it is sewn, on the body, outside of it and the right way round.
 pub fn verdict(report: &Report) -> Vec<Problem> {
-    faults(report, false).into_iter().map(|(problem, _)| problem).collect()
+    faults(report, Moved::Wrapped).into_iter().map(|(problem, _)| problem).collect()
 }
 
-/// Every fault with its place on the garment. Cloth that was `draped` may have folds.
-pub fn faults(report: &Report, draped: bool) -> Vec<(Problem, Spot)> {
+/// Every fault with its place on the garment, which `moved` so to where it lies.
+pub fn faults(report: &Report, moved: Moved) -> Vec<(Problem, Spot)> {
     let mut faults = Faults::default();
     faults.placing(report);
     faults.sewing(report);
-    if draped {
+    if moved == Moved::Draped {
         faults.fastening(report);
     }
-    faults.body(report, draped);
+    faults.body(report, moved);
     faults.openings(report);
     faults.cloth(report);
     faults.fit(report);
@@ -132,8 +132,8 @@ impl Faults {
         }
     }
 
-    fn body(&mut self, report: &Report, draped: bool) {
-        if draped && report.triangles > 0 && report.faces_near_body == 0 {
+    fn body(&mut self, report: &Report, moved: Moved) {
+        if moved == Moved::Draped && report.triangles > 0 && report.faces_near_body == 0 {
             let words =
                 words!("it touches the body nowhere: it has fallen off it, or nothing holds it there");
             self.tell(Spot::Nowhere, words!("garment"), words);
@@ -160,7 +160,7 @@ impl Faults {
             };
             self.tell(Spot::Through, words!("body"), words);
         }
-        let n = report.wrong_side_out(draped);
+        let n = report.wrong_side_out(moved);
         if n > 0 {
             let words = match n {
                 1 => words!("1 triangle lies wrong side out"),

@@ -5,7 +5,7 @@ use serde::Serialize;
 
 use crate::body::{Surface, landmarks};
 use crate::cloth::{ClothState, EdgeMetric, FlatPiece, Garment};
-use crate::fit::{self, BodyIndex, Fallen, Report};
+use crate::fit::{self, BodyIndex, Fallen, Moved, Report};
 use crate::geometry::words::{Value, Words, decimal, words};
 use crate::pattern::{Problem, ProblemKind};
 use crate::sim::source::GarmentSource;
@@ -29,12 +29,23 @@ pub struct Fault {
 /// How the cloth came to its present position.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Lies<'a> {
-    /// Whether physics has moved it: it may have folds.
-    pub draped: bool,
+    /// How it came there.
+    pub moved: Moved,
     /// Whether it was sewn from the placement of its pieces, and the body has not moved since.
     pub sewn: bool,
     /// Heights of the highest points of its pieces before a start draped it, metres; None where none did, or the body has moved.
     pub hung_at: Option<&'a [f64]>,
+}
+
+impl Lies<'_> {
+    /// How cloth came there that physics moved, or that lies as a change of pose left it.
+    pub fn moved(was_draped: bool, is_posed: bool) -> Moved {
+        match was_draped {
+            true => Moved::Draped,
+            false if is_posed => Moved::Carried,
+            false => Moved::Wrapped,
+        }
+    }
 }
 
 /// A pair of marks near a fault.
@@ -55,7 +66,7 @@ pub fn faults(
     body: &BodyIndex<'_>,
     lies: Lies<'_>,
 ) -> Vec<Fault> {
-    let mut found = fit::faults(report, lies.draped);
+    let mut found = fit::faults(report, lies.moved);
     // Cloth that could not be sewn to its neighbours falls off: that is reported already.
     if report.seams.open == 0 {
         let fallen = match lies.hung_at {

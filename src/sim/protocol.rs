@@ -197,7 +197,8 @@ impl Snapshot {
 
     /// How the cloth came to its present position.
     pub fn lies(&self) -> Lies<'_> {
-        Lies { draped: self.was_draped, sewn: self.was_sewn, hung_at: self.hung_at.as_deref() }
+        let moved = Lies::moved(self.was_draped, self.reposed.is_some());
+        Lies { moved, sewn: self.was_sewn, hung_at: self.hung_at.as_deref() }
     }
 
     /// Whether any cloth is on the body.

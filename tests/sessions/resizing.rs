@@ -38,7 +38,7 @@ fn faults(s: &mut Session) -> Vec<String> {
     let (source, body) =
         (snapshot.source.as_ref().expect("a source"), snapshot.body.as_ref().expect("a body"));
     let report = fit::measure(&source.pattern, garment, cloth, &BodyIndex::new(body));
-    fit::faults(&report, snapshot.was_draped).into_iter().map(|(problem, _)| problem.words.into()).collect()
+    fit::faults(&report, snapshot.lies().moved).into_iter().map(|(problem, _)| problem.words.into()).collect()
 }
 
 #[test]

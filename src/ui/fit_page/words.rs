@@ -31,7 +31,7 @@ pub fn smaller_words(smaller: &Smaller) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::fit::{Opening, Penetration, PieceChange, Report, Seams, Strain, faults};
+    use crate::fit::{Moved, Opening, Penetration, PieceChange, Report, Seams, Strain, faults};
     use crate::geometry::ids::SeamId;
     use crate::geometry::words::words;
     use crate::language::{Table, said, shown_in};
@@ -72,9 +72,10 @@ mod tests {
 
     #[test]
     fn every_fault_is_told_in_german() {
-        let mut all: Vec<_> = faults(&faulty(), true).into_iter().map(|(problem, _)| problem).collect();
+        let mut all: Vec<_> =
+            faults(&faulty(), Moved::Draped).into_iter().map(|(problem, _)| problem).collect();
         assert!(all.len() >= 14, "{all:#?}");
-        all.extend(faults(&Report::default(), false).into_iter().map(|(problem, _)| problem));
+        all.extend(faults(&Report::default(), Moved::Wrapped).into_iter().map(|(problem, _)| problem));
         let english: Vec<[String; 2]> = all.iter().map(|p| [said(&p.words), said(&p.place)]).collect();
         shown_in(Table::german(), || {
             for (problem, english) in all.iter().zip(english) {

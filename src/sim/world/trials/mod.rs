@@ -448,7 +448,8 @@ impl World {
         let (garment, cloth) =
             split.as_ref().map_or((garment, &self.cloth), |(garment, cloth)| (garment, cloth));
         let hung_at = self.hung_at.as_deref().filter(|_| self.was_draped);
-        let lies = Lies { draped: self.was_draped, sewn: self.was_sewn, hung_at };
+        let moved = Lies::moved(self.was_draped, self.outcome().is_some());
+        let lies = Lies { moved, sewn: self.was_sewn, hung_at };
         let index = BodyIndex::new(body);
         let report = measure(&source.pattern, garment, cloth, &index);
         Some(Judged {
@@ -490,7 +491,7 @@ fn places(report: &Report, lies: Lies<'_>) -> usize {
     let through = report.edges_through_body + report.body_edges_through_garment;
     let cloth = report.self_crossings + report.degenerate_faces + report.strain.doubled;
     let missing: usize = report.pieces.iter().map(|piece| piece.missing_triangles).sum();
-    inside + through + cloth + missing + report.seams.open + report.wrong_side_out(lies.draped)
+    inside + through + cloth + missing + report.seams.open + report.wrong_side_out(lies.moved)
 }
 
 /// Whether the cloth is where draping cannot mend it.
