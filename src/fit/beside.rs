@@ -1,7 +1,7 @@
 //! Cloth that has other skin beside its outer side, such as a skirt beside a hand: it lies the right way round all the same.
 
 use crate::fit::laid::Laid;
-use crate::fit::shape::root;
+use crate::fit::shape::{join, neighbours, root};
 
 /// Largest share of the triangles near the body that may have skin beside their outer side. A hand or an arm is beside a few in a
 /// hundred; of a sleeve inside out it is nearly all.
@@ -26,7 +26,8 @@ pub(super) fn beside(laid: &Laid, wrong: &[Option<bool>]) -> Vec<Beside> {
     }
     let is_wrong = |t: usize| wrong[t] == Some(true);
     // Cloth without a crease, and in it what is wrong side out.
-    let (mut smooth, mut patches) = (own(count), own(count));
+    let own: Vec<u32> = (0..count as u32).collect();
+    let (mut smooth, mut patches) = (own.clone(), own);
     let mut creased = vec![false; count];
     for [s, t] in neighbours(laid) {
         let [m, n] = [s, t].map(|t| {
@@ -39,9 +40,9 @@ pub(super) fn beside(laid: &Laid, wrong: &[Option<bool>]) -> Vec<Beside> {
             creased[t] |= wrong[s] == Some(false);
             continue;
         }
-        join(&mut smooth, s, t);
+        join(&mut smooth, s as u32, t as u32);
         if is_wrong(s) && is_wrong(t) {
-            join(&mut patches, s, t);
+            join(&mut patches, s as u32, t as u32);
         }
     }
     let sheets: Vec<usize> = (0..count).map(|t| root(&mut smooth, t as u32) as usize).collect();
@@ -59,23 +60,4 @@ pub(super) fn beside(laid: &Laid, wrong: &[Option<bool>]) -> Vec<Beside> {
         _ => Beside::No,
     };
     (0..count).map(beside).collect()
-}
-
-/// Pairs of triangles that share an edge.
-fn neighbours(laid: &Laid) -> Vec<[usize; 2]> {
-    let edges = |(t, &[a, b, c]): (usize, &[u32; 3])| {
-        [[a, b], [b, c], [c, a]].map(|[a, b]| ([a.min(b), a.max(b)], t))
-    };
-    let mut sides: Vec<([u32; 2], usize)> = laid.mesh.triangles.iter().enumerate().flat_map(edges).collect();
-    sides.sort_unstable();
-    sides.windows(2).filter(|w| w[0].0 == w[1].0).map(|w| [w[0].1, w[1].1]).collect()
-}
-
-fn own(count: usize) -> Vec<u32> {
-    (0..count as u32).collect()
-}
-
-fn join(parent: &mut [u32], s: usize, t: usize) {
-    let [s, t] = [s, t].map(|t| root(parent, t as u32));
-    parent[s.max(t) as usize] = s.min(t);
 }

@@ -69,8 +69,7 @@ pub struct Report {
     /// crumpled beside other skin.
     #[serde(default)]
     pub faces_between: usize,
-    /// Flipped triangles of smooth cloth with other skin, such as a hand, beside them; they are not counted
-    /// above.
+    /// Flipped triangles of smooth cloth with other skin, such as a hand, beside them; the two counts before are without them.
     #[serde(default)]
     pub faces_beside: usize,
     /// Distances of the vertices from the skin.

@@ -173,6 +173,17 @@ pub(super) fn degenerate_faces(laid: &Laid) -> usize {
 
 /// Number of interior edges, and of those whose triangles are folded onto each other.
 pub(super) fn interior_and_folded_edges(laid: &Laid) -> (usize, usize) {
+    let normal = |t: usize| {
+        let [a, b, c] = laid.mesh.corners(t);
+        (b - a).cross(c - a).normalize_or_zero()
+    };
+    let pairs = neighbours(laid);
+    let folded = pairs.iter().filter(|[s, t]| normal(*s).dot(normal(*t)) < FOLDED).count();
+    (pairs.len(), folded)
+}
+
+/// Pairs of triangles that share an edge.
+pub(super) fn neighbours(laid: &Laid) -> Vec<[usize; 2]> {
     let mut sides: Vec<([u32; 2], usize)> = laid
         .mesh
         .triangles
@@ -181,14 +192,7 @@ pub(super) fn interior_and_folded_edges(laid: &Laid) -> (usize, usize) {
         .flat_map(|(t, &[a, b, c])| [[a, b], [b, c], [c, a]].map(|[a, b]| ([a.min(b), a.max(b)], t)))
         .collect();
     sides.sort_unstable();
-    let normal = |t: usize| {
-        let [a, b, c] = laid.mesh.corners(t);
-        (b - a).cross(c - a).normalize_or_zero()
-    };
-    let pairs = sides.windows(2).filter(|w| w[0].0 == w[1].0);
-    pairs.fold((0, 0), |(all, folded), w| {
-        (all + 1, folded + usize::from(normal(w[0].1).dot(normal(w[1].1)) < FOLDED))
-    })
+    sides.windows(2).filter(|w| w[0].0 == w[1].0).map(|w| [w[0].1, w[1].1]).collect()
 }
 
 /// Number of connected components in space.
@@ -196,11 +200,16 @@ pub(super) fn pieces_in_space(laid: &Laid) -> usize {
     let mut parent: Vec<u32> = (0..laid.mesh.positions.len() as u32).collect();
     for &[a, b, c] in &laid.mesh.triangles {
         for other in [b, c] {
-            let (a, other) = (root(&mut parent, a), root(&mut parent, other));
-            parent[a.max(other) as usize] = a.min(other);
+            join(&mut parent, a, other);
         }
     }
     laid.used.iter().filter(|&&v| root(&mut parent, v) == v).count()
+}
+
+/// Unites the sets of `a` and `b`, in a forest of disjoint sets.
+pub(super) fn join(parent: &mut [u32], a: u32, b: u32) {
+    let (a, b) = (root(parent, a), root(parent, b));
+    parent[a.max(b) as usize] = a.min(b);
 }
 
 /// The set that `v` belongs to, in a forest of disjoint sets.

@@ -14,6 +14,7 @@ use crate::repose::{PosePath, Reposer};
 /// Farthest that a point of the body goes from one tick to the next, metres. Chosen by trial: half an edge of a triangle, over which
 /// neighbours keep together.
 const STEP: f64 = 0.01;
+
 /// Cloth on its way to another pose of its body.
 #[derive(Clone, Debug)]
 pub(super) struct Walk {
