@@ -9,7 +9,7 @@
 //!
 //! | folder | holds | may use |
 //! | --- | --- | --- |
-//! | `geometry` | ids, curves, meshes and adjacency, sparse factorisation, seeded random numbers, how much a parallel task gets, words that any language can say; nothing about cloth | nothing of ours |
+//! | `geometry` | ids, curves, meshes and adjacency, sparse factorisation and conjugate gradients, seeded random numbers, how much a parallel task gets, words that any language can say; nothing about cloth | nothing of ours |
 //! | `pattern`  | the flat garment: piece, seam, trims (folds, elastic, stitches, wrinkles), buttons, tacks and zips, bows, edges cut for sewing, editing that keeps seam lengths and symmetry, grading to sizes, triangulation, problems a person can fix | geometry |
 //! | `body`     | surface (nearest point, ray, walk), import checks, mannequin, skeleton, poses, bones, landmarks, measurements | geometry |
 //! | `cloth`    | the sewn garment as solvers see it: topology and rest shape, moving state; fabrics; the shapes of trims on it | pattern, geometry |
@@ -19,7 +19,7 @@
 //! | `drag`     | paper A: dependency graph, motion in local frames, pushpins | relax, contact, cloth, body, pattern, geometry |
 //! | `card`     | small steps of cloth with contact on a graphics card: compute shaders, plain buffers in, positions out | geometry |
 //! | `drape`    | physics: forces (membrane, bending, folds, elastic), contact, solvers (implicit steps, small steps, direct equilibrium); a garment on its body, on a graphics card where one may be used; sewing | card, contact, cloth, body, geometry |
-//! | `repose`   | paper C: distance map, conforming to another pose of the body, recovery, strain control | relax, contact, cloth, body, pattern, geometry |
+//! | `repose`   | paper C: distance map, conforming to another pose of the body, recovery, strain limiting | relax, contact, cloth, body, pattern, geometry |
 //! | `place`    | placement of pieces in space before they are sewn: points round the body, tubes round limbs, a file's placement adapted to another body, sleeves moved to their arms, what turns over folded | wrap, contact, cloth, body, pattern, geometry |
 //! | `fit`      | measurements of a garment: strain, self-intersections, openings, the report, maps | cloth, body, pattern, geometry |
 //! | `sim`      | owner of the moving state: stages, protocol, checkpoints, thread, state hash | the above |
