@@ -6,6 +6,7 @@ use glam::DVec3;
 use serde::{Deserialize, Serialize};
 
 use crate::cloth::ClothState;
+use crate::fit::Moved;
 use crate::geometry::words::{Words, words};
 use crate::pattern::Pattern;
 use crate::relax::RelaxSettings;
@@ -32,8 +33,8 @@ pub struct Dressed {
     pub source: Arc<GarmentSource>,
     /// Positions of the cloth.
     pub cloth: Arc<ClothState>,
-    /// Whether physics has moved it since it was grown: folds are then no fault. False in files that do not have this field.
-    pub was_draped: bool,
+    /// How it came there, which tells whether folds are a fault. Wrapped in files that say nothing.
+    pub moved: Moved,
 }
 
 #[derive(Serialize, Deserialize)]
@@ -47,24 +48,31 @@ struct DressedData {
     mapped: Vec<bool>,
     #[serde(default, skip_serializing_if = "is_false")]
     was_draped: bool,
+    #[serde(default, skip_serializing_if = "is_false")]
+    was_carried: bool,
 }
 
 impl From<Dressed> for DressedData {
     fn from(dressed: Dressed) -> Self {
         let GarmentSource { pattern, marks, edge_length, relax } = Arc::unwrap_or_clone(dressed.source);
         let ClothState { positions, mapped } = Arc::unwrap_or_clone(dressed.cloth);
-        let was_draped = dressed.was_draped;
-        Self { pattern, marks, edge_length, relax, positions, mapped, was_draped }
+        let [was_draped, was_carried] = [Moved::Draped, Moved::Carried].map(|moved| dressed.moved == moved);
+        Self { pattern, marks, edge_length, relax, positions, mapped, was_draped, was_carried }
     }
 }
 
 impl From<DressedData> for Dressed {
     fn from(data: DressedData) -> Self {
-        let DressedData { pattern, marks, edge_length, relax, positions, mapped, was_draped } = data;
+        let DressedData { pattern, marks, edge_length, relax, positions, mapped, was_draped, was_carried } =
+            data;
         Self {
             source: Arc::new(GarmentSource { pattern, marks, edge_length, relax }),
             cloth: Arc::new(ClothState { positions, mapped }),
-            was_draped,
+            moved: match (was_draped, was_carried) {
+                (true, _) => Moved::Draped,
+                (false, true) => Moved::Carried,
+                (false, false) => Moved::Wrapped,
+            },
         }
     }
 }

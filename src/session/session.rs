@@ -96,8 +96,8 @@ impl Session {
         let mut bodies = BodyCache::default();
         let body = bodies.surface(&project.document.body);
         let recorder = Recorder::new(&project);
-        if let (Some(Dressed { source, cloth, was_draped }), Ok(body)) = (project.dressed, body) {
-            let kind = RequestKind::Adopt { source, body, cloth, was_draped };
+        if let (Some(Dressed { source, cloth, moved }), Ok(body)) = (project.dressed, body) {
+            let kind = RequestKind::Adopt { source, body, cloth, moved };
             runner.send(Request { seq: 0, checkpoint: false, kind });
             if !project.document.pins.is_empty() {
                 let kind = RequestKind::SetPins(project.document.pinned_places());
@@ -243,7 +243,7 @@ impl Session {
             // Cloth that is being sewn has another mesh than the pattern gives: only the pattern is saved.
             Some(source) if snapshot.is_dressed() && !snapshot.is_sewing => {
                 let (source, cloth) = (Arc::clone(source), Arc::clone(&snapshot.cloth));
-                Some(Dressed { source, cloth, was_draped: snapshot.was_draped })
+                Some(Dressed { source, cloth, moved: snapshot.moved })
             }
             _ => None,
         };

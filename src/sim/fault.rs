@@ -37,17 +37,6 @@ pub struct Lies<'a> {
     pub hung_at: Option<&'a [f64]>,
 }
 
-impl Lies<'_> {
-    /// How cloth came there that physics moved, or that lies as a change of pose left it.
-    pub fn moved(was_draped: bool, is_posed: bool) -> Moved {
-        match was_draped {
-            true => Moved::Draped,
-            false if is_posed => Moved::Carried,
-            false => Moved::Wrapped,
-        }
-    }
-}
-
 /// A pair of marks near a fault.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Concerned {

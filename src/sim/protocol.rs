@@ -10,7 +10,7 @@ use crate::card::CardSlot;
 use crate::cloth::{ClothState, Garment};
 use crate::contact::Bone;
 use crate::drag::{DragMode, Ray};
-use crate::fit::TightPlace;
+use crate::fit::{Moved, TightPlace};
 use crate::geometry::ids::PieceId;
 use crate::geometry::words::Words;
 use crate::pattern::activity::Activity;
@@ -47,7 +47,7 @@ pub enum RequestKind {
     /// was, then settle. `carried` are pieces that were moved in the pattern plane. Does nothing where nothing is dressed.
     Resew { pattern: Arc<Pattern>, marks: Arc<Marks>, pins: Arc<Vec<ClothPlace>>, carried: Arc<Vec<Carried>> },
     /// Take over cloth that was dressed, and perhaps draped, before (from a project file). It is at rest until something changes.
-    Adopt { source: Arc<GarmentSource>, body: Arc<Surface>, cloth: Arc<ClothState>, was_draped: bool },
+    Adopt { source: Arc<GarmentSource>, body: Arc<Surface>, cloth: Arc<ClothState>, moved: Moved },
     /// The body takes another pose; `body` has the triangles of the present body. The cloth follows and, with `settle`, settles
     /// there; if it intersects itself more than before, it is draped with `fabrics`. A `draft` is a quick preview of lower
     /// quality. Does nothing where nothing is dressed.
@@ -142,8 +142,8 @@ pub struct Snapshot {
     pub tight: Arc<Vec<TightPlace>>,
     /// State of draping; None where nothing is draped.
     pub drape: Option<DrapeState>,
-    /// Whether physics has moved the cloth since it was grown: folds are then no fault.
-    pub was_draped: bool,
+    /// How the cloth came to where it lies, which tells whether folds are a fault.
+    pub moved: Moved,
     /// Whether the cloth was sewn from the placement of its pieces on the body in its present pose; then it should still be
     /// there.
     pub was_sewn: bool,
@@ -197,8 +197,7 @@ impl Snapshot {
 
     /// How the cloth came to its present position.
     pub fn lies(&self) -> Lies<'_> {
-        let moved = Lies::moved(self.was_draped, self.reposed.is_some());
-        Lies { moved, sewn: self.was_sewn, hung_at: self.hung_at.as_deref() }
+        Lies { moved: self.moved, sewn: self.was_sewn, hung_at: self.hung_at.as_deref() }
     }
 
     /// Whether any cloth is on the body.

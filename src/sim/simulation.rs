@@ -189,7 +189,7 @@ impl Simulation {
             verdict: self.looked.as_ref().map(|looked| Arc::clone(&looked.faults)),
             tight: self.looked.as_ref().map_or_else(Arc::default, |looked| Arc::clone(&looked.tight)),
             drape: world.drape_state(),
-            was_draped: world.was_draped,
+            moved: world.moved,
             was_sewn: world.was_sewn,
             hung_at: world.hung_at.clone(),
             is_sewing: world.sewing.is_some(),
@@ -245,8 +245,8 @@ impl Simulation {
                 let world = self.world.rewrapped(source, body, &pairs);
                 self.set_world(world);
             }
-            RequestKind::Adopt { source, body, cloth, was_draped } => {
-                self.set_world(World::adopted(source, body, cloth, was_draped)?);
+            RequestKind::Adopt { source, body, cloth, moved } => {
+                self.set_world(World::adopted(source, body, cloth, moved)?);
             }
             RequestKind::Resew { pattern, marks, pins, carried } => {
                 if let Some(world) = self.world.resewn(pattern, marks, pins, &carried) {

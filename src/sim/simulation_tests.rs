@@ -6,6 +6,7 @@ use super::*;
 use crate::body::Surface;
 use crate::cloth::Fabric;
 use crate::drag::{DragMode, Ray};
+use crate::fit::Moved;
 use crate::geometry::mesh::TriMesh;
 use crate::pattern::{Pattern, Piece, SpacePose};
 use crate::relax::RelaxSettings;
@@ -145,7 +146,7 @@ fn cloth_of_another_size_is_not_adopted() {
     let mut simulation = wrapped();
     let before = simulation.hash();
     let kind =
-        RequestKind::Adopt { source: source(), body: ball(), cloth: Arc::default(), was_draped: false };
+        RequestKind::Adopt { source: source(), body: ball(), cloth: Arc::default(), moved: Moved::Wrapped };
     simulation.apply(request(2, kind));
     let words = failures(&mut simulation);
     assert!(words[0].contains("0 vertices"), "{words:?}");

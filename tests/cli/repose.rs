@@ -122,6 +122,17 @@ fn cloth_that_was_draped_may_fold_after_it_was_saved_too() {
 }
 
 #[test]
+fn cloth_that_was_carried_may_fold_after_it_was_saved_too() {
+    let place = Place::new();
+    place.ends(0, "dress sample:tshirt --save worn.toile --out out");
+    place.ends(0, "repose worn.toile --pose arms-up --save posed.toile --out up");
+    let folds = place.json("up/report.json")["faces_in_folds"].as_u64();
+    assert!(folds.is_some_and(|count| count > 0), "this test needs folds: {folds:?}");
+    place.ends(0, "fit posed.toile --page fit.html");
+    assert!(!place.read("fit.html").contains("wrong side out"));
+}
+
+#[test]
 fn a_body_of_other_triangles_and_two_saves_are_refused_in_words() {
     let place = dressed();
     let other = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n";

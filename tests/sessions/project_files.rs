@@ -4,6 +4,7 @@ use std::path::Path;
 use std::sync::Arc;
 
 use proptest::prelude::*;
+use toile::fit::Moved;
 use toile::geometry::ids::MarkId;
 use toile::session::project_file::{ProjectFileError, from_bytes, open, save, to_bytes};
 use toile::session::{BodyChoice, Command, Project, Session};
@@ -50,7 +51,7 @@ fn it_is_kept_whether_cloth_was_draped_and_old_files_tell_nothing() {
         let project = s.project();
         let text = serde_json::to_string(&project).expect("json");
         assert_eq!(from_bytes(&to_bytes(&project).expect("bytes")).expect("a project"), project);
-        let was_draped = project.dressed.expect("cloth").was_draped;
+        let was_draped = project.dressed.expect("cloth").moved == Moved::Draped;
         assert_eq!(text.contains("was_draped"), was_draped, "cloth of the marks alone is written as before");
         was_draped
     };

@@ -5,6 +5,7 @@ use std::sync::Arc;
 use glam::{DQuat, DVec3};
 use toile::body::{NamedPose, mannequin};
 use toile::contact::Intersections;
+use toile::fit::Moved;
 use toile::session::project_file;
 use toile::session::recording::Recording;
 use toile::session::replay::Replay;
@@ -111,7 +112,11 @@ fn cloth_that_comes_to_run_through_itself_in_a_pose_is_draped_there() {
     s.apply_alone(Command::Repose { body: sitting, settle: false, draft: false }).expect("posed");
     run(&mut s, 20_000);
     let snapshot = s.snapshot();
-    assert!(!snapshot.working && snapshot.drape.is_none() && snapshot.was_draped, "{:?}", snapshot.drape);
+    assert!(
+        !snapshot.working && snapshot.drape.is_none() && snapshot.moved == Moved::Draped,
+        "{:?}",
+        snapshot.drape
+    );
     let outcome = snapshot.reposed.expect("a change of pose");
     assert!(outcome.crossings > 0, "it would not have needed draping: {outcome:?}");
     let garment = snapshot.garment.as_ref().expect("a skirt");

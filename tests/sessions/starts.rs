@@ -2,6 +2,7 @@
 
 use std::sync::Arc;
 
+use toile::fit::Moved;
 use toile::geometry::ids::PieceId;
 use toile::pattern::Fold;
 use toile::session::recording::Recording;
@@ -44,7 +45,7 @@ fn the_first_start_without_a_fault_is_taken() {
         assert_eq!((started.taken().start, started.taken().draped), (start, true), "{started:?}");
         assert_eq!(started.taken().faults, faults(&mut s));
         assert_eq!(started.taken, started.tried.len() - 1, "no other is tried after it");
-        assert!(s.snapshot().was_draped);
+        assert_eq!(s.snapshot().moved, Moved::Draped);
         assert_eq!(s.document().marks.pairs().count(), 0, "suggested marks are not the document's");
         let suggested = s.snapshot().source.as_ref().expect("dressed").marks.pairs().count();
         assert_eq!(suggested > 0, start == Start::Marks);

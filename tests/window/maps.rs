@@ -122,7 +122,7 @@ fn moved(window: &Window, to: impl Fn(DVec3) -> DVec3) -> Project {
     let mut cloth = snapshot.cloth.as_ref().clone();
     cloth.positions.iter_mut().for_each(|p| *p = to(*p));
     let source = snapshot.source.clone().expect("cloth");
-    let dressed = Some(Dressed { source, cloth: Arc::new(cloth), was_draped: false });
+    let dressed = Some(Dressed { source, cloth: Arc::new(cloth), moved: toile::fit::Moved::Wrapped });
     Project { document: session.document().clone(), dressed }
 }
 

@@ -5,6 +5,7 @@ use std::sync::Arc;
 
 use crate::body::Surface;
 use crate::cloth::{self, Carry, Skip};
+use crate::fit::Moved;
 use crate::geometry::words::Words;
 use crate::sim::source::{DrapeSource, GarmentSource};
 use crate::sim::start::{Start, StartChoice};
@@ -55,16 +56,16 @@ impl World {
             relaxing: self.relaxing,
             problems: self.problems,
             meshes,
-            was_draped: self.was_draped,
+            moved: self.moved,
             was_sewn: self.was_sewn,
             hung_at: self.hung_at,
             separated: self.separated,
             ..Self::default()
         };
         fine.part_active();
-        match fine.was_draped {
-            true => fine.drape_for(None, fabrics),
-            false => fine.settle(),
+        match fine.moved {
+            Moved::Draped => fine.drape_for(None, fabrics),
+            Moved::Wrapped | Moved::Carried => fine.settle(),
         }
         fine.set_pins(&self.places);
         fine

@@ -17,6 +17,7 @@ use crate::card::CardSlot;
 use crate::cloth::{self, Carry, ClothState, Counters, FlatPiece, Garment, Skip};
 use crate::contact::{Bone, Bones, Splits, separation};
 use crate::drag::{DragMode, Dragging, Ray};
+use crate::fit::Moved;
 use crate::geometry::ids::PieceId;
 use crate::geometry::words::{Words, words};
 use crate::pattern::edit::Carried;
@@ -69,8 +70,8 @@ pub struct World {
     pub posing: Option<Arc<Posing>>,
     /// Draping: controls the cloth, or waits until it is laid.
     pub draping: Option<Arc<Draping>>,
-    /// Whether physics has moved the cloth since it was grown: it may have folds, even after it moved on.
-    pub was_draped: bool,
+    /// How the cloth came to where it lies since it was grown: what may have folds keeps them after it moved on.
+    pub moved: Moved,
     /// Whether the cloth was sewn from the placement of its pieces, on the body in its present pose.
     pub was_sewn: bool,
     /// Heights of the highest points of its pieces before a start draped it, metres; None where none did, or the body has moved.
@@ -114,7 +115,7 @@ impl Default for World {
             posed: None,
             posing: None,
             draping: None,
-            was_draped: false,
+            moved: Moved::default(),
             was_sewn: false,
             hung_at: None,
             seams_unseen: false,
@@ -241,7 +242,7 @@ impl World {
             relaxing: self.relaxing,
             problems: Arc::new(problems),
             meshes,
-            was_draped: self.was_draped,
+            moved: self.moved,
             ..Self::default()
         };
         if !world.worked_as_draped(self) {
@@ -272,7 +273,7 @@ impl World {
         source: Arc<GarmentSource>,
         body: Arc<Surface>,
         cloth: Arc<ClothState>,
-        was_draped: bool,
+        moved: Moved,
     ) -> Result<Self, Words> {
         let (garment, problems) = cloth::build(&source.pattern, source.edge_length);
         let count = garment.vertex_count;
@@ -290,7 +291,7 @@ impl World {
             garment: Some(Arc::new(garment)),
             splits: splits.map(Arc::new),
             cloth,
-            was_draped,
+            moved,
             problems: Arc::new(problems),
             ..Self::default()
         })

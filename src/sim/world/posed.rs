@@ -5,6 +5,7 @@ use std::sync::Arc;
 use crate::body::Surface;
 use crate::cloth::ClothState;
 use crate::contact::Splits;
+use crate::fit::Moved;
 use crate::geometry::words::{Words, words};
 use crate::repose::{Change, Outcome, ReposeSettings, Reposer};
 use crate::sim::source::DrapeSource;
@@ -120,7 +121,7 @@ impl World {
         marks: Arc<Marks>,
         fabrics: Arc<DrapeSource>,
     ) -> Result<Option<Self>, Words> {
-        let then = if self.was_draped { Then::Part(fabrics) } else { Then::Settle(fabrics) };
+        let then = if self.moved == Moved::Draped { Then::Part(fabrics) } else { Then::Settle(fabrics) };
         let grows = self.dressing.as_ref().is_some_and(|dressing| dressing.relaxer().is_none());
         if grows || self.sewing.is_some() || self.trials.is_some() {
             return self.reposed(body, marks, then);
@@ -177,6 +178,9 @@ impl World {
         self.posed = size.is_none().then(|| Arc::new(posed));
         (self.source, self.body, self.cloth) = (Some(source), Some(size.unwrap_or(body)), cloth);
         (self.dressing, self.draping, self.was_sewn, self.hung_at) = (None, None, false, None);
+        if self.moved == Moved::Wrapped {
+            self.moved = Moved::Carried;
+        }
         match then {
             Then::Part(fabrics) | Then::Settle(fabrics) if more_crossings => self.drape_posed(fabrics),
             Then::Part(fabrics) => self.walk_if_worse(self.posed.clone(), &fabrics),

@@ -12,6 +12,7 @@ use crate::cloth::{ClothState, Garment, Skips};
 use crate::contact::Splits;
 use crate::drag::Ray;
 use crate::drape::{DrapedGarment, DrapedSettings, Undrapable};
+use crate::fit::Moved;
 use crate::geometry::words::{Words, words};
 use crate::sim::protocol::DrapeState;
 use crate::sim::source::{ClothPlace, DrapeSource};
@@ -179,7 +180,7 @@ impl World {
             None => worn,
         });
         (self.dressing, self.splits, self.posed) = (None, None, None);
-        self.was_draped = true;
+        self.moved = Moved::Draped;
         Ok(())
     }
 

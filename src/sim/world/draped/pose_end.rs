@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use crate::cloth::ClothState;
 use crate::contact::Splits;
-use crate::fit::{fallen_from, tops};
+use crate::fit::{Moved, fallen_from, tops};
 use crate::sim::source::DrapeSource;
 use crate::sim::world::World;
 use crate::sim::world::draped::walk::{Going, Walk};
@@ -40,7 +40,7 @@ impl World {
     /// Begins to drape draped cloth along the way to the pose that it has come to by `posed`, where it had no fault before and has one
     /// now.
     pub(in crate::sim) fn walk_if_worse(&mut self, posed: Option<Arc<Posed>>, source: &Arc<DrapeSource>) {
-        let Some(posed) = posed.filter(|_| self.was_draped) else { return };
+        let Some(posed) = posed.filter(|_| self.moved == Moved::Draped) else { return };
         let before = || Self {
             cloth: Arc::new(posed.reposer.cloth().clone()),
             body: Some(Arc::clone(posed.reposer.from())),
@@ -148,7 +148,7 @@ mod tests {
         let piece = *source().pattern.pieces.keys().next().expect("a piece");
         let at = [(0.0, 0.1), (0.2, 0.1)].map(|at| ClothPlace { piece, at: at.into() });
         world.set_pins(&at);
-        world.was_draped = true;
+        world.moved = Moved::Draped;
         let aside = ball().mesh.positions.iter().map(|p| *p + DVec3::X * 0.05).collect();
         let there = Arc::new(ball().reposed(aside).expect("as many vertices"));
         let moved = world.reposed(there, Arc::default(), Then::Part(cotton()));

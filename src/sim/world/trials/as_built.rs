@@ -122,6 +122,7 @@ fn placed_round(source: &Arc<GarmentSource>, body: &Surface) -> Arc<GarmentSourc
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::fit::Moved;
     use crate::sim::simulation::tests::ball;
     use crate::sim::start::{AsBuilt, Tried};
     use crate::sim::world::trials::tests::{faulty, rested};
@@ -152,7 +153,7 @@ mod tests {
         let again = World::next_start(&mut trials).expect("once more");
         assert!(trials.as_built && again.body.as_ref().is_some_and(|body| body.mesh == ball().mesh));
         trials.draping = true;
-        let mut world = World { was_draped: true, ..rested(again) };
+        let mut world = World { moved: Moved::Draped, ..rested(again) };
         let before = Arc::clone(&world.cloth);
         assert!(world.after_start(&mut trials, None).is_none() && world.posing.is_some());
         let world = posed_there(world).after_start(&mut trials, None).expect("taken");
@@ -170,7 +171,7 @@ mod tests {
         let (world, mut trials, posed) = on_built();
         trials.as_built = true;
         let words = || Some(Words::plain("it crosses itself"));
-        let mut world = World { was_draped: true, ..world };
+        let mut world = World { moved: Moved::Draped, ..world };
         assert!(world.after_start(&mut trials, words()).is_none() && world.posing.is_some());
         let world = posed_there(world).after_start(&mut trials, words()).expect("taken");
         assert!(world.body.as_ref().is_some_and(|body| Arc::ptr_eq(body, &posed)));
@@ -212,7 +213,7 @@ mod tests {
     fn cloth_that_fails_draped_in_the_built_pose_is_carried_undraped() {
         let (world, mut trials, posed) = on_built();
         (trials.as_built, trials.draping) = (true, false);
-        let mut world = World { was_draped: false, ..world };
+        let mut world = World { moved: Moved::Wrapped, ..world };
         assert!(world.after_start(&mut trials, None).is_none());
         assert!(trials.draping && trials.undraped.is_some(), "draped next");
         let fault = Some(Words::plain("it does not fit this body"));
@@ -226,6 +227,6 @@ mod tests {
         let world = world.after_start(&mut trials, fault).expect("taken");
         let started = world.started.as_ref().expect("told");
         assert_eq!((started.taken().draped, started.taken().as_built), (false, Some(AsBuilt::Carried)));
-        assert!(!world.was_draped && world.body.is_some_and(|body| Arc::ptr_eq(&body, &posed)));
+        assert!(world.moved != Moved::Draped && world.body.is_some_and(|body| Arc::ptr_eq(&body, &posed)));
     }
 }

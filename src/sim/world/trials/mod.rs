@@ -6,7 +6,7 @@ use std::sync::Arc;
 
 use crate::body::{Surface, landmarks};
 use crate::cloth::Skip;
-use crate::fit::{BodyIndex, Report, TightPlace, measure, tight_places, tops};
+use crate::fit::{BodyIndex, Moved, Report, TightPlace, measure, tight_places, tops};
 use crate::geometry::words::{Words, words};
 use crate::place::Turned;
 use crate::sim::fault::{Fault, Lies, faults};
@@ -324,7 +324,7 @@ impl World {
             if trials.is_out_of_time() && !self.lies_still() {
                 faults.push(words!("it still moves"));
             }
-            if trials.draping && !self.was_draped {
+            if trials.draping && self.moved != Moved::Draped {
                 let why = self.problems.last().map(|problem| problem.words.clone()).unwrap_or_default();
                 faults.push(words!("it was not draped: {why}", why));
             }
@@ -433,7 +433,7 @@ impl World {
                     started.tried[started.taken].ticks += std::mem::take(&mut trials.ticks);
                 }
                 trials.draped_fine = Some((Arc::new(self.clone()), faults.to_vec(), places));
-                let undraped = Self { was_draped: false, hung_at: None, ..Arc::unwrap_or_clone(coarse) };
+                let undraped = Self { moved: Moved::Wrapped, hung_at: None, ..Arc::unwrap_or_clone(coarse) };
                 *self = undraped.refined(edge_length, Arc::clone(&trials.fabrics));
                 true
             }
@@ -447,9 +447,8 @@ impl World {
         let split = self.drawn();
         let (garment, cloth) =
             split.as_ref().map_or((garment, &self.cloth), |(garment, cloth)| (garment, cloth));
-        let hung_at = self.hung_at.as_deref().filter(|_| self.was_draped);
-        let moved = Lies::moved(self.was_draped, self.outcome().is_some());
-        let lies = Lies { moved, sewn: self.was_sewn, hung_at };
+        let hung_at = self.hung_at.as_deref().filter(|_| self.moved == Moved::Draped);
+        let lies = Lies { moved: self.moved, sewn: self.was_sewn, hung_at };
         let index = BodyIndex::new(body);
         let report = measure(&source.pattern, garment, cloth, &index);
         Some(Judged {
@@ -523,8 +522,8 @@ mod tests {
         trials.fine = Some(0.03);
         trials.refining = Some(Started { tried: vec![tried], taken: 0 });
         (trials.refinement, trials.draping) = (Refinement::Again, true);
-        trials.coarse = Some(Arc::new(World { was_draped: true, ..world.clone() }));
-        (World { was_draped: true, ..world }, trials)
+        trials.coarse = Some(Arc::new(World { moved: Moved::Draped, ..world.clone() }));
+        (World { moved: Moved::Draped, ..world }, trials)
     }
 
     #[test]
@@ -541,7 +540,10 @@ mod tests {
         let told: Vec<(bool, usize)> =
             started.tried.iter().map(|tried| (tried.draped, tried.faults.len())).collect();
         assert_eq!((told, started.taken), (vec![(true, 1), (false, 0)], 1));
-        assert!(!world.was_draped && world.garment.is_some_and(|garment| garment.triangles.len() > before));
+        assert!(
+            world.moved != Moved::Draped
+                && world.garment.is_some_and(|garment| garment.triangles.len() > before)
+        );
     }
 
     #[test]
@@ -552,7 +554,7 @@ mod tests {
             rested(world).after_start(&mut trials, Some(Words::plain("it crosses itself"))).expect("taken");
         let started = world.started.expect("told");
         assert_eq!((started.taken, &started.taken().faults[..]), (0, &[Words::plain("it fell off")][..]));
-        assert!(world.was_draped && started.tried.len() == 2);
+        assert!(world.moved == Moved::Draped && started.tried.len() == 2);
     }
 
     #[test]
