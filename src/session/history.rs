@@ -11,6 +11,8 @@ const MOST_STEPS: usize = 1000;
 pub enum StepKind {
     /// Began a wrap.
     Wrap,
+    /// Changed the body's pose or size; the cloth goes there.
+    Pose,
     /// Took cloth off or put other cloth on.
     Cloth,
     /// Anything else.

@@ -235,6 +235,11 @@ impl Session {
         newest.is_some_and(|step| step.kind == StepKind::Wrap)
     }
 
+    /// Whether the newest step is a change of the body's pose or size, which `Undo` takes back.
+    pub fn can_undo_pose(&self) -> bool {
+        self.history.last_done().is_some_and(|step| step.kind == StepKind::Pose)
+    }
+
     /// The content of a project file now.
     pub fn project(&mut self) -> Project {
         self.runner.refresh();

@@ -140,6 +140,8 @@ pub struct Snapshot {
     pub verdict: Option<Arc<Vec<Fault>>>,
     /// Tight places, the tightest piece first; empty until they were looked for.
     pub tight: Arc<Vec<TightPlace>>,
+    /// Whether the cloth is being carried to another pose.
+    pub is_posing: bool,
     /// State of draping; None where nothing is draped.
     pub drape: Option<DrapeState>,
     /// How the cloth came to where it lies, which tells whether folds are a fault.

@@ -188,6 +188,7 @@ impl Simulation {
             reposed: world.outcome(),
             verdict: self.looked.as_ref().map(|looked| Arc::clone(&looked.faults)),
             tight: self.looked.as_ref().map_or_else(Arc::default, |looked| Arc::clone(&looked.tight)),
+            is_posing: world.posing.is_some(),
             drape: world.drape_state(),
             moved: world.moved,
             was_sewn: world.was_sewn,

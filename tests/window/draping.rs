@@ -60,6 +60,22 @@ fn the_button_drapes_and_space_pauses() {
 }
 
 #[test]
+fn escape_pauses_draping_and_space_without_cloth_says_why_nothing_moves() {
+    let mut window = window();
+    key(&mut window, Modifiers::NONE, Key::Space);
+    window.run_steps(2);
+    assert!(window.query_by_label_contains("Drape: There is no cloth on the body").is_some());
+    let mut window = super::hand::dressed(window);
+    key(&mut window, Modifiers::NONE, Key::Space);
+    wait(&mut window, "the drape", |app| app.session().snapshot().drape.is_some_and(|d| d.runs && !d.waits));
+    key(&mut window, Modifiers::NONE, Key::Escape);
+    wait(&mut window, "the pause", |app| app.session().snapshot().drape.is_some_and(|d| !d.on));
+    window.run_steps(2);
+    assert!(window.query_by_label_contains("Draping is paused: the cloth stays as it is").is_some());
+    assert_eq!(app(&window).session().undo_label(), Some("drape"));
+}
+
+#[test]
 fn cloth_is_grabbed_while_it_drapes() {
     let mut window = dressed_window();
     key(&mut window, Modifiers::NONE, Key::Space);

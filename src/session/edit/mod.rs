@@ -112,10 +112,9 @@ impl Edit {
             ClothChange::Wrap | ClothChange::Rewrap(_) | ClothChange::Sew | ClothChange::Dress(_) => {
                 StepKind::Wrap
             }
+            ClothChange::Repose { .. } | ClothChange::Resize => StepKind::Pose,
             ClothChange::Clear
             | ClothChange::Resew(_)
-            | ClothChange::Repose { .. }
-            | ClothChange::Resize
             | ClothChange::SetPins
             | ClothChange::SetDraping(true)
             | ClothChange::StepDraping(_)

@@ -7,7 +7,7 @@ use crate::fit::MapKind;
 use crate::geometry::ids::MarkId;
 use crate::io::pdf::Paper;
 use crate::pattern::activity::Activity;
-use crate::sim::{DrapeState, Start};
+use crate::sim::{DrapeState, Snapshot, Start};
 use crate::ui::actions::drawer::Drawer;
 use crate::ui::actions::keymap::Keymap;
 use crate::ui::actions::layout::Layout;
@@ -23,6 +23,30 @@ use crate::ui::preferences::units::LengthUnit;
 use crate::ui::selection::Item;
 use crate::ui::shell::pace::Pace;
 use crate::wrap::{MarkPlace, Phase};
+
+/// Work on the cloth that can be stopped.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Stops {
+    /// Cloth is being put on the body: what was there before comes back.
+    Wrap,
+    /// Cloth goes to another pose or size of the body: the one before comes back.
+    Pose,
+    /// Cloth is draped: it stays where it is.
+    Drape,
+}
+
+impl Stops {
+    /// What Esc stops in the state of `snapshot`; `can_undo_pose` tells whether the newest step is a change of pose or size.
+    pub fn of(wrapping: bool, snapshot: &Snapshot, can_undo_pose: bool) -> Option<Self> {
+        let is_on_its_way = snapshot.is_posing || snapshot.drape.is_some_and(|drape| drape.way.is_some());
+        match snapshot.drape {
+            _ if wrapping => Some(Self::Wrap),
+            _ if is_on_its_way && can_undo_pose => Some(Self::Pose),
+            Some(drape) if drape.on && drape.runs => Some(Self::Drape),
+            _ => None,
+        }
+    }
+}
 
 /// The state of the app in this frame.
 #[derive(Clone, Debug)]
@@ -77,6 +101,8 @@ pub struct FrameContext {
     pub wrapped: bool,
     /// Whether a wrap is in progress and the cloth is not all on the body yet.
     pub wrapping: bool,
+    /// What Esc stops.
+    pub stops: Option<Stops>,
     /// While starts are tried: the current start, and whether it is being draped.
     pub trying: Option<(Start, bool)>,
     /// Whether the simulation has work to do.
@@ -89,6 +115,8 @@ pub struct FrameContext {
     pub relaxing: bool,
     /// Whether some piece is placed around the body.
     pub placed: bool,
+    /// Whether the cloth lies as it was carried to the pose of the body.
+    pub carried: bool,
     /// State of draping.
     pub drape: Option<DrapeState>,
     /// Phase of the wrap.
@@ -175,7 +203,7 @@ impl FrameContext {
                 (self.has_joints, "The body is from a file: only the mannequin takes poses by name")
             }
             Need::Dressed => (self.dressed, "There is no cloth on the body"),
-            Need::Growing => (self.wrapping, "Nothing is growing"),
+            Need::Work => (self.stops.is_some(), "Nothing is being put on the body, posed or draped"),
             Need::NotGrowing => (!self.wrapping, "The cloth is growing"),
             Need::NotTrying => (self.trying.is_none(), "The garment is being put on: cancel that first"),
             Need::NotDraping => (!self.drapes(), "It drapes: pause it first"),
@@ -327,5 +355,38 @@ impl FrameContext {
             (Action::Redo, _, Some(what)) => say!("Redo {what}", what),
             _ => action.row().label().to_owned(),
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::sim::Simulation;
+
+    #[test]
+    fn escape_stops_what_goes_on_with_the_cloth() {
+        let rest = Simulation::default().snapshot();
+        assert_eq!(Stops::of(false, &rest, true), None);
+        assert_eq!(Stops::of(true, &rest, true), Some(Stops::Wrap));
+        let posing = Snapshot { is_posing: true, ..rest.clone() };
+        assert_eq!(Stops::of(false, &posing, true), Some(Stops::Pose));
+        assert_eq!(Stops::of(false, &posing, false), None, "another step came after it");
+        let drape = DrapeState {
+            on: true,
+            waits: false,
+            runs: true,
+            residual: 0.5,
+            speed: 0.1,
+            ticks: 1,
+            substeps: 10,
+            card: false,
+            way: None,
+        };
+        let draping = |drape| Snapshot { drape: Some(drape), ..rest.clone() };
+        assert_eq!(Stops::of(false, &draping(drape), true), Some(Stops::Drape));
+        assert_eq!(Stops::of(false, &draping(DrapeState { on: false, ..drape }), true), None);
+        let on_its_way = draping(DrapeState { way: Some(0.3), ..drape });
+        assert_eq!(Stops::of(false, &on_its_way, true), Some(Stops::Pose));
+        assert_eq!(Stops::of(false, &on_its_way, false), Some(Stops::Drape));
     }
 }

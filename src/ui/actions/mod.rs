@@ -164,7 +164,7 @@ pub enum Action {
     Dress,
     Wrap,
     Rewrap,
-    CancelWrap,
+    Cancel,
     Unwrap,
     Sew,
     ToggleRelaxing,

@@ -58,8 +58,8 @@ pub enum Need {
     Joints,
     /// There is cloth on the body.
     Dressed,
-    /// A wrap is in progress.
-    Growing,
+    /// Work on the cloth is in progress that can be stopped.
+    Work,
     /// No wrap is in progress.
     NotGrowing,
     /// No start is being tried.

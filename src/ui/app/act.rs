@@ -125,13 +125,7 @@ impl App {
                 self.apply(Command::Wrap);
             }
             Action::Rewrap => self.rewrap(),
-            Action::CancelWrap => {
-                let can_cancel = self.session.can_cancel_wrap();
-                self.apply(Command::CancelWrap);
-                if can_cancel {
-                    self.messages.tell(tr("Cancelled: on the body all is as before."));
-                }
-            }
+            Action::Cancel => self.cancel(),
             Action::Unwrap => self.apply(Command::Unwrap),
             Action::ToggleRelaxing => {
                 let on = !self.session.snapshot().relaxing;

@@ -163,8 +163,7 @@ impl App {
         snapshot: &Snapshot,
     ) -> FrameContext {
         let [undo, redo] = self.shown().next_labels().map(|label| label.map(said));
-        let asked = self.demo.is_none() && self.wrap_seq.is_some_and(|seq| snapshot.seq < seq);
-        let growing = snapshot.phase == Some(Phase::Growing) && snapshot.working;
+        let asked = self.has_asked_for_wrap(snapshot);
         let work = match snapshot.phase {
             _ if snapshot.dragged.is_some() => Some(Work::Hand),
             Some(Phase::Growing) => Some(Work::Growing),
@@ -200,13 +199,15 @@ impl App {
             demo: self.demo.is_some(),
             dressed: snapshot.is_dressed(),
             wrapped: self.shown().can_cancel_wrap(),
-            wrapping: asked || growing || (snapshot.trying.is_some() && snapshot.working),
+            wrapping: self.is_wrapping(snapshot),
+            stops: self.stoppable(snapshot),
             trying: snapshot.trying,
             working: asked || snapshot.working,
             caught_up: self.shown().is_caught_up(),
             dragging: snapshot.dragged.is_some(),
             relaxing: snapshot.relaxing,
             placed: document.pattern.pieces.values().any(|piece| piece.placement.is_some()),
+            carried: snapshot.reposed.is_some(),
             drape: snapshot.drape,
             phase: snapshot.phase,
             progress: snapshot.progress,

@@ -5,9 +5,11 @@ use std::sync::Arc;
 use crate::session::{Command, Document};
 use crate::sim::{Snapshot, Start, StartChoice, Started};
 use crate::ui::actions::Tool;
+use crate::ui::actions::context::Stops;
 use crate::ui::app::App;
 use crate::ui::body_pane::ghosts::Ghosts;
 use crate::ui::language::{said, say, tr};
+use crate::wrap::Phase;
 
 impl App {
     /// Dresses the garment by the best start.
@@ -19,6 +21,41 @@ impl App {
         self.show_cloth = true;
         self.ghosts = None;
         self.apply(Command::Dress { choice: StartChoice::default() });
+    }
+
+    /// Whether a wrap was asked for that has not begun yet.
+    pub(in crate::ui) fn has_asked_for_wrap(&self, snapshot: &Snapshot) -> bool {
+        self.demo.is_none() && self.wrap_seq.is_some_and(|seq| snapshot.seq < seq)
+    }
+
+    /// Whether cloth is being put on the body.
+    pub(in crate::ui) fn is_wrapping(&self, snapshot: &Snapshot) -> bool {
+        let grows = snapshot.phase == Some(Phase::Growing) || snapshot.trying.is_some();
+        self.has_asked_for_wrap(snapshot) || (grows && snapshot.working)
+    }
+
+    /// What Esc stops.
+    pub(in crate::ui) fn stoppable(&self, snapshot: &Snapshot) -> Option<Stops> {
+        Stops::of(self.is_wrapping(snapshot), snapshot, self.shown().can_undo_pose())
+    }
+
+    /// Stops what goes on with the cloth, and says what became of it.
+    pub(in crate::ui) fn cancel(&mut self) {
+        let (command, words) = match self.stoppable(self.session.snapshot()) {
+            Some(Stops::Drape) => (
+                Command::SetDraping { on: false },
+                tr("Draping is paused: the cloth stays as it is. Undo brings back what was before."),
+            ),
+            Some(Stops::Pose) => {
+                (Command::Undo, tr("Cancelled: body and cloth are as before the change of pose or size."))
+            }
+            Some(Stops::Wrap) if self.session.can_cancel_wrap() => {
+                (Command::CancelWrap, tr("Cancelled: on the body all is as before."))
+            }
+            _ => return self.apply(Command::CancelWrap),
+        };
+        self.apply(command);
+        self.messages.tell(words);
     }
 
     /// Reports the result once all starts are tried, and shows suggested marks, which disappear with the cloth.

@@ -73,7 +73,7 @@ impl App {
     /// Esc in a bar gives the keyboard to the pane that had it last, and closes a bar that can be closed. It first cancels what is
     /// in progress, and closes dialogs.
     pub(in crate::ui) fn escape_from_bar(&mut self, ctx: &Context, now: &FrameContext) {
-        let is_wanted = now.wrapping || now.demo || self.dialog.is_some() || self.shell.is_asking();
+        let is_wanted = now.stops.is_some() || now.demo || self.dialog.is_some() || self.shell.is_asking();
         let Some(bar) = self.shell.round.bar.filter(|_| !is_wanted) else { return };
         if ctx.input_mut(|i| i.consume_key(Modifiers::NONE, Key::Escape)) {
             self.leave_bar(ctx, bar);

@@ -31,7 +31,7 @@ impl App {
                 }
             }
         }
-        let escape = ctx.input(|i| i.key_pressed(Key::Escape)) && !menu && !drawing && !now.wrapping;
+        let escape = ctx.input(|i| i.key_pressed(Key::Escape)) && !menu && !drawing && now.stops.is_none();
         if escape && self.selected.is_some() {
             asks.push(Ask::Select(None));
         }
@@ -49,7 +49,7 @@ impl App {
                     || (scene.has_focus(ctx) && scene.takes_key(keys.logical_key))
                     || (table.takes_numbers() && at_table && is_figure)
                     || (keys.logical_key == Key::Space && at_table)
-                    || (action == Action::CancelWrap && (drawing || self.drag.is_some())));
+                    || (action == Action::Cancel && (drawing || self.drag.is_some())));
             let refusal = now.refusal(action);
             // Keys that panes use too are left to them while the action is disabled.
             let is_left = refusal.is_some() && !is_of_actions_only(keys);
@@ -60,9 +60,9 @@ impl App {
     }
 }
 
-/// Whether no pane uses `keys`: letters, with or without modifiers, and Ctrl+Enter.
+/// Whether no pane uses `keys`: letters, with or without modifiers, Space over the body, and Ctrl+Enter.
 fn is_of_actions_only(keys: KeyboardShortcut) -> bool {
     let name = keys.logical_key.name().as_bytes();
     let is_letter = name.len() == 1 && name[0].is_ascii_alphabetic();
-    is_letter || (keys.logical_key == Key::Enter && keys.modifiers.command)
+    is_letter || keys.logical_key == Key::Space || (keys.logical_key == Key::Enter && keys.modifiers.command)
 }

@@ -18,6 +18,8 @@ use crate::pattern::{EdgeRef, Pattern, Piece};
 pub const REACH: f64 = 10.0;
 /// Largest distance of a click from an edge or seam, points.
 pub const NEAR_EDGE: f64 = 7.0;
+/// Largest distance from a sewn edge at which a click selects the seam, not the piece, points.
+const NEAR_SEWN: f64 = 4.0;
 
 /// A guide: a line on the table to draw along.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -152,6 +154,13 @@ impl<'a> Table<'a> {
     /// The seam with a thread at `p`.
     pub fn thread_at(&self, p: DVec2) -> Option<SeamId> {
         self.threads.thread_near(self.pattern(), p, self.reach(NEAR_EDGE * 0.7))
+    }
+
+    /// The seam with a sewn edge at `p`: nearer to it than where a click selects the piece.
+    pub fn sewn_edge_at(&self, p: DVec2) -> Option<SeamId> {
+        let size = |(_, shape): (_, &PieceShape)| (shape.bounds[1] - shape.bounds[0]).min_element();
+        let piece = self.piece_at(p).and_then(|(id, _)| self.piece(id)).map_or(f64::INFINITY, size);
+        self.threads.side_near(self.pattern(), p, self.reach(NEAR_SEWN).min(piece / 10.0))
     }
 
     /// The mark within reach of `p`.

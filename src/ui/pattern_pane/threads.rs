@@ -84,10 +84,26 @@ impl Threads {
 
     /// The seam with a thread within `reach` metres of a point of the table.
     pub fn thread_near(&self, pattern: &Pattern, table: DVec2, reach: f64) -> Option<SeamId> {
-        let distance = |ends: &Ends| {
-            let [from, to] = ends.on_table(pattern)?;
-            from.iter().zip(&to).map(|(&p, &q)| to_polyline(table, &[p, q])).reduce(f64::min)
-        };
+        self.nearest(pattern, reach, |[from, to]| {
+            from.iter().zip(to).map(|(&p, &q)| to_polyline(table, &[p, q])).reduce(f64::min)
+        })
+    }
+
+    /// The seam with a sewn edge within `reach` metres of a point of the table.
+    pub fn side_near(&self, pattern: &Pattern, table: DVec2, reach: f64) -> Option<SeamId> {
+        self.nearest(pattern, reach, |sides| {
+            sides.iter().map(|side| to_polyline(table, side)).reduce(f64::min)
+        })
+    }
+
+    /// The seam that is seen at the least `distance` of its ends on the table, if that is within `reach` metres.
+    fn nearest(
+        &self,
+        pattern: &Pattern,
+        reach: f64,
+        distance: impl Fn(&[Vec<DVec2>; 2]) -> Option<f64>,
+    ) -> Option<SeamId> {
+        let distance = |ends: &Ends| distance(&ends.on_table(pattern)?);
         let seen = self.all().filter(|(_, ends)| ends.is_seen(pattern));
         let near = seen.filter_map(|(id, ends)| Some((id, distance(ends)?))).filter(|(_, d)| *d <= reach);
         near.min_by(|a, b| a.1.total_cmp(&b.1)).map(|(id, _)| id)
@@ -138,4 +154,32 @@ pub fn threads(pattern: &Pattern, seam: &Seam) -> Option<[Vec<DVec2>; 2]> {
         to.reverse();
     }
     Some([from, to])
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::pattern::{EdgeRef, Piece};
+
+    #[test]
+    fn a_seam_is_found_at_its_sewn_edges_and_at_its_threads() {
+        let mut pattern = Pattern::default();
+        let square = [[0.0, 0.0], [0.2, 0.0], [0.2, 0.2], [0.0, 0.2]].map(DVec2::from);
+        let [one, other] = ["Front", "Back"].map(|name| pattern.add_piece(Piece::polygon(name, &square)));
+        let moved = pattern.pieces.get_mut(&other).expect("a piece");
+        std::sync::Arc::make_mut(moved).pose.offset = DVec2::new(0.5, 0.0);
+        let sides = [(one, 1), (other, 3)].map(|(piece, edge)| EdgeRef { piece, edge });
+        let seam = pattern.add_seam(Seam::of_edges(sides, false));
+        let (mut shapes, mut threads) = (Shapes::default(), Threads::default());
+        shapes.update(&pattern);
+        threads.update(&pattern, &shapes);
+        let side = |x, y| threads.side_near(&pattern, DVec2::new(x, y), 0.01);
+        assert_eq!([side(0.195, 0.1), side(0.505, 0.1)], [Some(seam); 2]);
+        assert_eq!(
+            [side(0.1, 0.1), side(0.35, 0.1), side(0.1, 0.0)],
+            [None; 3],
+            "cloth, table, another edge"
+        );
+        assert_eq!(threads.thread_near(&pattern, DVec2::new(0.35, 0.1), 0.03), Some(seam));
+    }
 }

@@ -45,7 +45,7 @@ pub fn menu_bar_ui(ui: &mut egui::Ui, now: &FrameContext, asks: &mut Asks) {
                 ui,
                 now,
                 asks,
-                &[Action::Dress, Action::Wrap, Action::Rewrap, Action::CancelWrap, Action::DressAllSizes],
+                &[Action::Dress, Action::Wrap, Action::Rewrap, Action::Cancel, Action::DressAllSizes],
             );
             items(ui, now, asks, &[Action::Unwrap]);
             ui.separator();

@@ -5,7 +5,7 @@ use egui::{Align, Layout, ProgressBar, RichText};
 use crate::drag::DragMode;
 use crate::sim::DrapeState;
 use crate::sim::Start;
-use crate::ui::actions::context::FrameContext;
+use crate::ui::actions::context::{FrameContext, Stops};
 use crate::ui::actions::{Action, Tool};
 use crate::ui::language::keys::shortcut_text;
 use crate::ui::language::{number, say, tr};
@@ -60,7 +60,7 @@ pub fn next_step(ctx: &egui::Context, now: &FrameContext) -> String {
         None => tr(action.row().text).to_owned(),
     };
     if now.wrapping {
-        return say!("The cloth is being put on the body · {key}: cancel", key = key(Action::CancelWrap));
+        return say!("The cloth is being put on the body · {key}: cancel", key = key(Action::Cancel));
     }
     if !now.dressed {
         return if now.is_for_dress() {
@@ -70,7 +70,7 @@ pub fn next_step(ctx: &egui::Context, now: &FrameContext) -> String {
         };
     }
     if now.drape.is_some_and(|drape| drape.way.is_some()) {
-        let key = key(Action::Undo);
+        let key = key(if now.stops == Some(Stops::Pose) { Action::Cancel } else { Action::Undo });
         return say!("The cloth is draped on its way to the pose · {key}: back to the pose before", key);
     }
     let drag = Action::Choose(Tool::Drag(DragMode::Surface));
@@ -114,6 +114,7 @@ fn phase_words(now: &FrameContext) -> String {
         Some(_) if !now.relaxing => tr("Held still").to_owned(),
         Some(Phase::Growing) => say!("Growing {percent} %", percent),
         Some(Phase::Settling) => say!("Settling {percent} %", percent),
+        Some(Phase::AtRest) if now.carried => tr("At rest as carried to the pose").to_owned(),
         Some(Phase::AtRest) => tr("At rest").to_owned(),
     }
 }

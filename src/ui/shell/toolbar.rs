@@ -6,7 +6,7 @@ use egui::{Align, Button, Id, Layout, RichText, Separator};
 
 use crate::drag::DragMode;
 use crate::ui::actions::asks::{Ask, Asks};
-use crate::ui::actions::context::FrameContext;
+use crate::ui::actions::context::{FrameContext, Stops};
 use crate::ui::actions::{Action, Tool};
 use crate::ui::language::keys::shortcut_text;
 use crate::ui::language::tr;
@@ -31,8 +31,9 @@ type Widths = [f32; GROUPS + 1];
 ///
 /// Which parts share a row follows from their widths in the last frame.
 pub fn toolbar_ui(ui: &mut egui::Ui, now: &FrameContext, palette: &Palette, asks: &mut Asks) -> Option<Id> {
-    let main = if now.wrapping {
-        Action::CancelWrap
+    let waits_for_pose = now.stops == Some(Stops::Pose) && now.drape.is_some_and(|drape| drape.way.is_some());
+    let main = if now.wrapping || waits_for_pose {
+        Action::Cancel
     } else if now.is_for_dress() {
         Action::Dress
     } else {
@@ -119,7 +120,7 @@ fn button_ui(
     match action {
         Action::Undo => plain(ui, now, asks, action, Some(tr("Undo"))),
         Action::Redo => plain(ui, now, asks, action, Some(tr("Redo"))),
-        Action::CancelWrap => primary(ui, now, asks, action, palette.stop, palette),
+        Action::Cancel => primary(ui, now, asks, action, palette.stop, palette),
         Action::Dress | Action::Wrap => primary(ui, now, asks, action, palette.accent, palette),
         _ => plain(ui, now, asks, action, None),
     }

@@ -35,9 +35,14 @@ pub const ROWS: &[Row] = &[
     )
     .keys(&[KeyboardShortcut::new(Modifiers::SHIFT, Key::Enter)])
     .needs(&[Need::Dressed, Need::NotGrowing, Need::NewPairs]),
-    row("Garment", Action::CancelWrap, "Cancel", "Stop, and bring back what was on the body before")
-        .keys(&[key(Key::Escape)])
-        .needs(&[Need::Growing]),
+    row(
+        "Garment",
+        Action::Cancel,
+        "Cancel",
+        "Stop: what was on the body before comes back, or the pose before; draping is paused",
+    )
+    .keys(&[key(Key::Escape)])
+    .needs(&[Need::Work]),
     row("Garment", Action::Unwrap, "Undress", "Take the cloth off the body; the marks stay")
         .needs(&[Need::Dressed]),
     row("Garment", Action::ToggleRelaxing, "Relax", "Let the cloth even itself out, or hold it still")

@@ -89,7 +89,11 @@ impl Action {
 
     /// The action's name in files, which does not depend on the language of the interface.
     pub fn id(self) -> String {
-        format!("{self:?}")
+        match self {
+            // So it is called in the files of earlier versions.
+            Self::Cancel => "CancelWrap".to_owned(),
+            action => format!("{action:?}"),
+        }
     }
 }
 

@@ -258,8 +258,9 @@ impl PatternTool for Select {
     }
 
     fn under(&self, table: &Table<'_>, p: DVec2) -> Option<Item> {
-        let piece = table.piece_at(p).map(|(piece, _)| Item::Piece(piece));
-        piece.or_else(|| table.thread_at(p).map(Item::Seam))
+        let piece = || table.piece_at(p).map(|(piece, _)| Item::Piece(piece));
+        let sewn = table.sewn_edge_at(p).map(Item::Seam);
+        sewn.or_else(piece).or_else(|| table.thread_at(p).map(Item::Seam))
     }
 
     fn cursor(&self, table: &Table<'_>, at: DVec2) -> CursorIcon {
