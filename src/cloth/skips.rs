@@ -13,7 +13,8 @@ pub enum Skip {
     Triangles,
     /// Faces that cannot have come near the skin, or turned away from it, since their last check are not checked again.
     Faces,
-    /// Where no layers intersected, intersections are not sought again until the cloth is at rest.
+    /// Where no layers intersected, intersections are not sought again until the cloth is at rest; while it is draped not as long as
+    /// contact keeps it from crossing.
     Crossings,
     /// The matrix is factored again only when more than a certain fraction of the contacts has changed.
     Refactor,

@@ -1,16 +1,18 @@
 //! What is skipped changes nothing: cloth dressed and dragged with and without each skip.
 
+use std::collections::BTreeMap;
 use std::f64::consts::PI;
 use std::sync::Arc;
 
 use glam::DVec3;
 use toile::body::{Surface, mannequin};
-use toile::cloth::{ClothState, Counters, Garment, Skip, Skips, build};
+use toile::cloth::{ClothState, Counters, Fabric, Garment, Skip, Skips, build};
 use toile::drag::{DragMode, Dragging, Ray};
+use toile::drape::{DrapedGarment, DrapedSettings};
 use toile::relax::{GlobalStep, RelaxSettings, Relaxer};
 use toile::session::samples::Sample;
 use toile::session::{Command, Session};
-use toile::sim::{Runner, Simulation};
+use toile::sim::{Runner, Simulation, Snapshot};
 
 use crate::common::exact::{cylinder, quantile, rolled, strains, tube};
 
@@ -18,8 +20,8 @@ const RADIUS: f64 = 0.15;
 const OFFSET: f64 = 0.004;
 const EDGE: f64 = 0.025;
 
-/// A coarse T-shirt dressed on the mannequin.
-fn shirt(skips: Skips) -> (u64, Counters, f64) {
+/// A coarse T-shirt dressed on the mannequin, and the hash of the cloth.
+fn dressed(skips: Skips) -> (Snapshot, u64) {
     let mut project = Sample::Tshirt.project(&mannequin::default());
     project.document.settings.edge_length = 0.03;
     let mut session = Session::new(project, Runner::inline(Simulation::default()));
@@ -27,10 +29,15 @@ fn shirt(skips: Skips) -> (u64, Counters, f64) {
     session.apply_alone(Command::Wrap).expect("wrapped");
     let simulation = session.runner().simulation().expect("inline");
     while simulation.tick() {}
-    let snapshot = simulation.snapshot();
+    (simulation.snapshot(), simulation.hash())
+}
+
+/// The hash of a coarse T-shirt dressed on the mannequin, the work, and its p99 strain.
+fn shirt(skips: Skips) -> (u64, Counters, f64) {
+    let (snapshot, hash) = dressed(skips);
     let garment = snapshot.garment.expect("a garment");
     let p99 = quantile(&strains(&garment, &snapshot.cloth), 0.99);
-    (simulation.hash(), snapshot.stats.work, p99)
+    (hash, snapshot.stats.work, p99)
 }
 
 /// Certificates, walks round the last triangle and remembered faces: the same bits with a fraction of the queries.
@@ -46,6 +53,29 @@ fn exact_skips_change_no_bit_of_a_dressed_shirt() {
     }
     let all: Vec<Skip> = Skip::ALL.into_iter().filter(|skip| skip.is_exact()).collect();
     assert_eq!(shirt(Skips::without(&all)).0, usual);
+}
+
+/// Contact keeps draped cloth from crossing itself and the body, so that crossings need not be sought: the same bits.
+#[test]
+fn draped_cloth_that_cannot_cross_is_not_searched_for_crossings() {
+    let (snapshot, _) = dressed(Skips::default());
+    let (garment, body) = (snapshot.garment.expect("a garment"), snapshot.body.expect("a body"));
+    let cotton = Fabric::preset("cotton").expect("a preset");
+    let draped = |skips| {
+        let (mut cloth, fabrics) = (snapshot.cloth.as_ref().clone(), BTreeMap::new());
+        let settings = DrapedSettings { strain: 0.01, self_collision: true, skips };
+        let (garment, body) = (Arc::clone(&garment), Arc::clone(&body));
+        let mut worn = DrapedGarment::new(garment, &cloth, body, (&fabrics, cotton), &[], settings)
+            .expect("it can be draped");
+        while !worn.progress().at_rest {
+            worn.tick(&mut cloth).expect("it stays in place");
+        }
+        (cloth, worn.counters.self_tests)
+    };
+    let (cloth, tests) = draped(Skips::default());
+    let (same, all) = draped(Skips::without(&[Skip::Crossings]));
+    assert!(cloth == same);
+    assert!(2 * tests < all, "{tests} searches, {all} without the skip");
 }
 
 /// A skip that takes another way to rest leads to another place: friction holds cloth where it comes to lie. It is as well

@@ -53,7 +53,7 @@ impl DrapedGarment {
                 }
             }
         }
-        if precise && self.lacking == 0 {
+        if precise && self.lacking == 0 && !self.is_known_clean() {
             self.lift_cuts(cloth, &mut raised, times * LIFTING.clearance * fixed.offset);
         }
         self.small.set_lift(&raised);

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use glam::DVec3;
 
-use crate::cloth::ClothState;
+use crate::cloth::{ClothState, Skip};
 use crate::contact::Intersections;
 use crate::drape::garment::{DrapedGarment, MOST_WORK, own_number};
 use crate::drape::state::State;
@@ -50,7 +50,7 @@ impl DrapedGarment {
 
     /// Separates layers that intersect each other, or begins to pull out deep intersections.
     pub(in crate::drape) fn part(&mut self, cloth: &mut ClothState) {
-        if !self.settings.self_collision {
+        if !self.settings.self_collision || (self.crossings == 0 && self.is_known_clean()) {
             return;
         }
         self.counters.self_tests += 1;
@@ -66,6 +66,12 @@ impl DrapedGarment {
             }
         }
         self.go_on_parting(best);
+    }
+
+    /// Whether it is known that the cloth crosses neither itself nor the body: the last detection found it so, and since then no vertex
+    /// has passed a plane between features.
+    pub(super) fn is_known_clean(&self) -> bool {
+        self.settings.skips.allow(Skip::Crossings) && !self.was_on_card && self.small.stays_clean()
     }
 
     /// Makes a separation step with the displacements `ways`, and counts the `places` of self-intersection.

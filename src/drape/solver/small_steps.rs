@@ -457,6 +457,11 @@ impl SmallSteps {
         separation.is_clean()
     }
 
+    /// Whether the last detection found the cloth to cross neither itself nor the body.
+    pub fn stays_clean(&self) -> bool {
+        self.separation.as_ref().is_some_and(Separation::is_clean)
+    }
+
     /// Moves the vertices at `x` by `ways`, metres, truncated so that no new intersection arises.
     pub fn send(&mut self, x: &mut [DVec3], collider: &Collider, ways: &[DVec3]) {
         if let Some(separation) = &mut self.separation {
