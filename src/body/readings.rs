@@ -60,14 +60,18 @@ impl Reading {
 /// All measurements that can be read on `mesh`: closed, y up, facing +z, arms down or spread. None when it does not
 /// look human. Where a figure's `own` landmarks are given, its shoulders, elbow and wrist are used for lengths.
 pub fn readings(mesh: &TriMesh, own: Option<&Landmarks>) -> Option<Vec<Reading>> {
-    let marks = landmarks::found(mesh)?;
+    read(mesh, &landmarks::found(mesh)?, own)
+}
+
+/// The same where the landmarks `marks` were found on `mesh`.
+pub(super) fn read(mesh: &TriMesh, marks: &Landmarks, own: Option<&Landmarks>) -> Option<Vec<Reading>> {
     let (low, high) = mesh.bounds();
     let reader = Reader { mesh, floor: low.y, tall: high.y - low.y, middle: marks.get("crotch")?.x };
-    let shoulders = own.and_then(Shoulders::own).or_else(|| Shoulders::found(mesh, &marks));
+    let shoulders = own.and_then(Shoulders::own).or_else(|| Shoulders::found(mesh, marks));
     let mut all = vec![Reading::plain("height", reader.tall)];
-    reader.trunk(&marks, &mut all)?;
-    reader.leg(&marks, &mut all)?;
-    let wrist = reader.arm(&marks, &mut all);
+    reader.trunk(marks, &mut all)?;
+    reader.leg(marks, &mut all)?;
+    let wrist = reader.arm(marks, &mut all);
     if let Some(shoulders) = shoulders {
         reader.shoulders(&shoulders, &mut all);
         let own = own.and_then(|own| Some([own.get("elbow_left")?, own.get("wrist_left")?]));

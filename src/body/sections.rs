@@ -2,7 +2,6 @@
 
 use glam::{DVec2, DVec3};
 
-use crate::body::Surface;
 use crate::body::measure::{hull_perimeter, section};
 use crate::geometry::mesh::TriMesh;
 
@@ -45,13 +44,12 @@ pub struct Trunk {
 
 impl Trunk {
     /// Reads the trunk of a body. None when no section crosses the middle plane at the belly.
-    pub fn new(surface: &Surface) -> Option<Self> {
-        let (lower, upper) = surface.bounds();
+    pub fn new(mesh: &TriMesh) -> Option<Self> {
+        let (lower, upper) = mesh.bounds();
         let tall = upper.y - lower.y;
-        let middle = middle(surface);
+        let middle = middle(mesh);
         let height = |k: usize| lower.y + tall * (k as f64 + 0.5) / LEVELS as f64;
-        let levels: Vec<Option<Level>> =
-            (0..LEVELS).map(|k| trunk_at(&surface.mesh, height(k), middle)).collect();
+        let levels: Vec<Option<Level>> = (0..LEVELS).map(|k| trunk_at(mesh, height(k), middle)).collect();
         let start = (BELLY * LEVELS as f64) as usize;
         let bottom = (0..=start).rev().take_while(|&k| levels[k].is_some()).last()?;
         let top = (start..LEVELS).take_while(|&k| levels[k].is_some()).last()?;
@@ -100,11 +98,11 @@ impl Trunk {
     }
 }
 
-/// Mean x of the surface, weighted by area, metres.
-fn middle(surface: &Surface) -> f64 {
+/// Mean x of a surface, weighted by area, metres.
+fn middle(mesh: &TriMesh) -> f64 {
     let (mut sum, mut area) = (0.0, 0.0);
-    for t in 0..surface.mesh.triangles.len() {
-        let [a, b, c] = surface.mesh.corners(t);
+    for t in 0..mesh.triangles.len() {
+        let [a, b, c] = mesh.corners(t);
         let size = (b - a).cross(c - a).length();
         sum += size * (a.x + b.x + c.x) / 3.0;
         area += size;
@@ -134,8 +132,7 @@ mod tests {
     #[test]
     fn the_mannequins_trunk_is_where_its_landmarks_are() {
         let figure = mannequin::default();
-        let surface = Surface::new(figure.mesh.clone()).expect("triangles");
-        let trunk = Trunk::new(&surface).expect("a trunk");
+        let trunk = Trunk::new(&figure.mesh).expect("a trunk");
         let mark = |name| figure.landmarks.get(name).expect("a landmark").y;
         assert!(trunk.middle.abs() < 0.005, "{}", trunk.middle);
         assert!((trunk.crotch - mark("crotch")).abs() < 0.02, "{} {}", trunk.crotch, mark("crotch"));

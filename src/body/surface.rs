@@ -9,9 +9,12 @@ use parry3d::shape::TriMesh as ParryMesh;
 use rayon::prelude::*;
 
 use crate::body::closest::{ClosestTree, Part, pseudonormal};
+use crate::body::landmarks::{self, Landmarks};
+use crate::body::readings::{Reading, read};
 use crate::geometry::adjacency::{Adjacency, NONE};
 use crate::geometry::mesh::TriMesh;
 use crate::geometry::parallel::LEAST_SUMS;
+use crate::geometry::winding::{Winding, WindingTree};
 
 /// Distance by which a ray that slipped between triangles is shifted and cast again, metres on a body 1.5 m large.
 const RAY_ASIDE: f64 = 1e-5;
@@ -42,6 +45,16 @@ pub struct Hit {
     pub distance: f64,
 }
 
+/// What takes long and few bodies are asked for: found out at the first question.
+#[derive(Default)]
+struct Lazily {
+    /// The mesh at which rays are cast.
+    parry: OnceLock<Option<ParryMesh>>,
+    winding: OnceLock<WindingTree>,
+    landmarks: OnceLock<Option<Landmarks>>,
+    readings: OnceLock<Option<Vec<Reading>>>,
+}
+
 /// The surface of a body, prepared for queries. Built once and shared.
 pub struct Surface {
     /// The mesh: closed, manifold, facing outward; metres. `body::import` reports meshes that are not.
@@ -53,8 +66,7 @@ pub struct Surface {
     /// Angle-weighted unit normal of each vertex.
     pub vertex_normals: Vec<DVec3>,
     closest: ClosestTree,
-    // Few bodies have rays cast at them: the tree for that is built for the first ray.
-    parry: OnceLock<Option<ParryMesh>>,
+    lazily: Lazily,
     // Rays run in f32 relative to this point, so that bodies far from the origin keep their accuracy.
     origin: DVec3,
     lower: DVec3,
@@ -99,8 +111,8 @@ impl Surface {
             })
             .collect();
         let vertex_normals = angle_weighted_normals(&mesh, &adjacency, &face_normals);
-        let parry = OnceLock::new();
-        Self { mesh, adjacency, face_normals, vertex_normals, closest, parry, origin, lower, upper }
+        let lazily = Lazily::default();
+        Self { mesh, adjacency, face_normals, vertex_normals, closest, lazily, origin, lower, upper }
     }
 
     /// The mesh at which rays are cast, built on first use; None when parry3d refuses it.
@@ -110,7 +122,22 @@ impl Surface {
                 self.mesh.positions.iter().map(|&p| (p - self.origin).as_vec3()).collect();
             ParryMesh::new(vertices, self.mesh.triangles.clone()).ok()
         };
-        self.parry.get_or_init(build).as_ref()
+        self.lazily.parry.get_or_init(build).as_ref()
+    }
+
+    /// Winding numbers of the mesh.
+    pub fn winding(&self) -> Winding<'_> {
+        Winding::with(&self.mesh, self.lazily.winding.get_or_init(|| WindingTree::new(&self.mesh)))
+    }
+
+    /// The landmarks; None where the body does not look human.
+    pub fn landmarks(&self) -> Option<&Landmarks> {
+        self.lazily.landmarks.get_or_init(|| landmarks::found(&self.mesh)).as_ref()
+    }
+
+    /// The measurements read on the body; None where it does not look human.
+    pub fn readings(&self) -> Option<&[Reading]> {
+        self.lazily.readings.get_or_init(|| read(&self.mesh, self.landmarks()?, None)).as_deref()
     }
 
     /// Lower and upper corner of the bounding box, metres.

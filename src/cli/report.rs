@@ -5,7 +5,7 @@ use std::time::Instant;
 
 use serde::Serialize;
 
-use crate::body::{Surface, landmarks};
+use crate::body::Surface;
 use crate::cli::arguments::PictureOptions;
 use crate::cli::failure::Failure;
 use crate::cli::picture::Artist;
@@ -223,7 +223,7 @@ fn measured(snapshot: &Snapshot) -> Result<Measured, Failure> {
     };
     let index = fit::BodyIndex::new(body);
     let fit = fit::measure(&source.pattern, garment, cloth, &index);
-    let tight = fit::tightest(&fit, garment, cloth, || landmarks::found(&body.mesh));
+    let tight = fit::tightest(&fit, garment, cloth, || body.landmarks());
     let faults = sim::faults(&fit, source, garment, cloth, &index, snapshot.lies());
     let offset = source.relax.offset * body.scale();
     let marks = stretches(&source.marks, body, offset).into_iter().map(PairLengths::from).collect();

@@ -5,7 +5,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use glam::DVec3;
 use serde::{Deserialize, Serialize};
 
-use crate::body::readings::{Reading, readings};
+use crate::body::readings::Reading;
 use crate::cloth::{ClothState, Garment};
 use crate::fit::girth::girths;
 use crate::fit::laid::Laid;
@@ -204,14 +204,14 @@ pub(super) fn smaller(
     body: &BodyIndex<'_>,
     missed: &[Opening],
 ) -> Vec<Smaller> {
-    let Some(readings) = readings(&body.surface().mesh, None) else { return Vec::new() };
-    let mut found: Vec<Smaller> = girths(garment, state, &readings)
+    let Some(readings) = body.surface().readings() else { return Vec::new() };
+    let mut found: Vec<Smaller> = girths(garment, state, readings)
         .into_iter()
         .map(|(i, girth)| {
             let place = readings[i].name.to_owned();
             Smaller { place, body: readings[i].metres, pattern: girth.flat }
         })
-        .chain(missed.iter().filter_map(|opening| narrow(opening, &readings)))
+        .chain(missed.iter().filter_map(|opening| narrow(opening, readings)))
         .filter(|smaller| smaller.body - smaller.pattern > LEAST_SMALLER)
         .collect();
     found.sort_by(|a, b| (b.body - b.pattern).total_cmp(&(a.body - a.pattern)));

@@ -7,6 +7,7 @@ pub mod exact;
 mod fallen;
 pub mod fastenings;
 mod girth;
+mod inside;
 mod laid;
 pub mod maps;
 mod measured;

@@ -9,6 +9,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::body::Surface;
 use crate::fit::beside::{Beside, beside};
+use crate::fit::inside::signed_distances;
 use crate::fit::laid::Laid;
 use crate::fit::openings::{Opening, openings};
 use crate::fit::shape::quantile;
@@ -71,7 +72,7 @@ pub struct BodyIndex<'a> {
 impl<'a> BodyIndex<'a> {
     /// Builds the index.
     pub fn new(surface: &'a Surface) -> Self {
-        Self { surface, winding: Winding::new(&surface.mesh) }
+        Self { surface, winding: surface.winding() }
     }
 
     /// The body.
@@ -137,7 +138,7 @@ pub(super) fn on_body(
     let body_edges = &body.surface.adjacency.edges;
     let through_body = meetings(&laid.mesh.positions, &laid.edges, body_mesh, body.winding.tree());
     let through_cloth = meetings(&body_mesh.positions, body_edges, &laid.mesh, cloth_tree);
-    let (distances, penetrating_vertices) = distances(laid, body);
+    let (distances, penetrating_vertices) = distances(laid, body, &through_body);
     let cut = cut_faces(laid, &through_body, &through_cloth, &penetrating_vertices);
     let wrong = wrong_side_out(laid, body);
     let beside = beside(laid, &wrong);
@@ -166,17 +167,8 @@ fn without(laid: &Laid, pieces: &BTreeSet<PieceId>) -> TriMesh {
 }
 
 /// Signed distances of the vertices, ascending, and for each vertex whether it is inside.
-fn distances(laid: &Laid, body: &BodyIndex<'_>) -> (Vec<f64>, Vec<bool>) {
-    let signed: Vec<f64> = laid
-        .used
-        .par_iter()
-        .with_min_len(LEAST_SHARE)
-        .map(|&v| {
-            let p = laid.mesh.positions[v as usize];
-            let distance = body.distance(p);
-            if body.contains(p) { -distance } else { distance }
-        })
-        .collect();
+fn distances(laid: &Laid, body: &BodyIndex<'_>, through_body: &[[u32; 2]]) -> (Vec<f64>, Vec<bool>) {
+    let signed = signed_distances(laid, (body.surface, &body.winding), through_body);
     let mut inside = vec![false; laid.mesh.positions.len()];
     for (&v, &d) in laid.used.iter().zip(&signed) {
         inside[v as usize] = d < 0.0;

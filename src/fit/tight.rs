@@ -55,21 +55,21 @@ struct Edge {
 }
 
 /// The tightest place of the garment of `report`; None where the garment fits. `landmarks` are those of its body.
-pub fn tightest(
+pub fn tightest<'a>(
     report: &Report,
     garment: &Garment,
     state: &ClothState,
-    landmarks: impl FnOnce() -> Option<Landmarks>,
+    landmarks: impl FnOnce() -> Option<&'a Landmarks>,
 ) -> Option<Tight> {
     tight_places(report, garment, state, landmarks).into_iter().next().map(|place| place.tight)
 }
 
 /// The tightest place of each tight piece, the tightest piece first; empty where the garment fits.
-pub fn tight_places(
+pub fn tight_places<'a>(
     report: &Report,
     garment: &Garment,
     state: &ClothState,
-    landmarks: impl FnOnce() -> Option<Landmarks>,
+    landmarks: impl FnOnce() -> Option<&'a Landmarks>,
 ) -> Vec<TightPlace> {
     if report.strain.p99 <= FITS {
         return Vec::new();

@@ -3,6 +3,8 @@
 //! After Jacobson, Kavan and Sorkine-Hornung (2013); distant parts of the mesh are approximated by one dipole each
 //! after Barill, Dickson, Schmidt, Levin and Jacobson (2018).
 
+use std::borrow::Cow;
+
 use glam::DVec3;
 
 use crate::geometry::bvh::{Aabb, Bvh};
@@ -22,17 +24,23 @@ struct Dipole {
     far_squared: f64,
 }
 
-/// A mesh prepared for winding number queries.
+/// The triangles of a mesh in a tree, with the dipoles of its nodes.
 #[derive(Clone, Debug)]
-pub struct Winding<'a> {
-    mesh: &'a TriMesh,
+pub struct WindingTree {
     tree: Bvh,
     dipoles: Vec<Dipole>,
 }
 
-impl<'a> Winding<'a> {
-    /// Builds the tree over `mesh` and the dipoles of its nodes.
-    pub fn new(mesh: &'a TriMesh) -> Self {
+/// A mesh prepared for winding number queries.
+#[derive(Clone, Debug)]
+pub struct Winding<'a> {
+    mesh: &'a TriMesh,
+    of: Cow<'a, WindingTree>,
+}
+
+impl WindingTree {
+    /// Builds the tree over `mesh`.
+    pub fn new(mesh: &TriMesh) -> Self {
         let tree = mesh.tree();
         let dipoles = tree
             .nodes
@@ -42,30 +50,43 @@ impl<'a> Winding<'a> {
                 dipole(mesh, &tree.items[first..first + count], &node.bounds)
             })
             .collect();
-        Self { mesh, tree, dipoles }
+        Self { tree, dipoles }
+    }
+}
+
+impl<'a> Winding<'a> {
+    /// Builds the tree over `mesh`.
+    pub fn new(mesh: &'a TriMesh) -> Self {
+        Self { mesh, of: Cow::Owned(WindingTree::new(mesh)) }
+    }
+
+    /// Queries of `mesh`, whose tree is known.
+    pub fn with(mesh: &'a TriMesh, tree: &'a WindingTree) -> Self {
+        Self { mesh, of: Cow::Borrowed(tree) }
     }
 
     /// The bounding volume hierarchy over the triangles.
     pub fn tree(&self) -> &Bvh {
-        &self.tree
+        &self.of.tree
     }
 
     /// The winding number at `p`.
     pub fn at(&self, p: DVec3) -> f64 {
-        if self.tree.nodes.is_empty() {
+        let WindingTree { tree, dipoles } = &*self.of;
+        if tree.nodes.is_empty() {
             return 0.0;
         }
         let mut solid_angle = 0.0;
         let mut open = vec![0usize];
         while let Some(at) = open.pop() {
-            let (node, dipole) = (&self.tree.nodes[at], &self.dipoles[at]);
+            let (node, dipole) = (&tree.nodes[at], &dipoles[at]);
             let to_centre = dipole.centre - p;
             let squared = to_centre.length_squared();
             if squared > dipole.far_squared {
                 solid_angle += to_centre.dot(dipole.moment) / (squared * squared.sqrt());
             } else if node.is_leaf() {
                 let first = node.first as usize;
-                for &t in &self.tree.items[first..first + node.count as usize] {
+                for &t in &tree.items[first..first + node.count as usize] {
                     solid_angle += triangle_solid_angle(self.mesh.corners(t as usize).map(|c| c - p));
                 }
             } else {

@@ -6,7 +6,7 @@
 
 use glam::{DQuat, DVec3};
 
-use crate::body::{Surface, bones, landmarks};
+use crate::body::{Surface, bones};
 use crate::cloth::{EdgeMetric, Garment};
 use crate::contact::Bone;
 use crate::geometry::borders::border_loops;
@@ -18,9 +18,9 @@ use crate::place::limbs::{Limb, Part, limbs};
 /// those of trousers.
 pub fn led(garment: &Garment, surface: &Surface, places: &[Option<DVec3>]) -> Vec<Option<DVec3>> {
     let mut places = places.to_vec();
-    let Some(marks) = landmarks::found(&surface.mesh) else { return places };
+    let Some(marks) = surface.landmarks() else { return places };
     let (lower, upper) = surface.bounds();
-    let all = limbs(&bones::extracted(surface, &marks), upper.y - lower.y);
+    let all = limbs(&bones::extracted(surface, marks), upper.y - lower.y);
     let legs: Vec<Bone> =
         all.iter().filter(|limb| matches!(limb.part, Part::Leg { .. })).map(|limb| limb.bone).collect();
     let cloth =

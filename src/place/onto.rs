@@ -64,7 +64,7 @@ impl Moved {
 /// of a piece is turned on to its bone). What is near enough is left.
 /// `offset` is the height of the cloth above the skin, metres.
 pub fn onto(pattern: &Pattern, surface: &Surface, bones: &[Bone], offset: f64) -> Moved {
-    let Some(trunk) = Trunk::new(surface) else { return Moved::default() };
+    let Some(trunk) = Trunk::new(&surface.mesh) else { return Moved::default() };
     let (cut, _) = CutPattern::new(pattern);
     let mut poses: BTreeMap<PieceId, SpacePose> =
         pattern.pieces.iter().filter_map(|(&id, piece)| Some((id, piece.placement?))).collect();

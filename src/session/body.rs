@@ -5,7 +5,7 @@ use std::sync::{Arc, OnceLock};
 use crate::body::mannequin::{Counterpart, mannequin};
 use crate::body::pose::rig;
 use crate::body::readings::{Reading, readings};
-use crate::body::{Landmarks, Surface, bones, landmarks};
+use crate::body::{Landmarks, Surface, bones};
 use crate::contact::Bone;
 use crate::geometry::mesh::TriMesh;
 use crate::geometry::words::words;
@@ -26,8 +26,6 @@ pub struct Body {
     bones: OnceLock<Arc<Vec<Bone>>>,
     /// Landmarks it was made with; None for a body from a file.
     own: Option<Landmarks>,
-    /// Landmarks found on its skin; computed once.
-    found: OnceLock<Option<Landmarks>>,
 }
 
 impl Body {
@@ -51,7 +49,7 @@ impl Body {
                 (posed.surface, OnceLock::from(bones), Some(posed.landmarks))
             }
         };
-        Ok(Self { surface, bones, own, found: OnceLock::new() })
+        Ok(Self { surface, bones, own })
     }
 
     /// Bones that cloth cannot be pulled across: of its skeleton, or found between the landmarks of a body that looks human.
@@ -64,19 +62,15 @@ impl Body {
 
     /// Landmarks of the body, if it has any.
     pub fn landmarks(&self) -> Option<&Landmarks> {
-        self.own.as_ref().or_else(|| self.found())
+        self.own.as_ref().or_else(|| self.surface.landmarks())
     }
 
     /// Landmarks of this body and of `other` with the same meaning: those both were made with, or else those found on both.
     pub fn common_landmarks<'a>(&'a self, other: &'a Self) -> Option<(&'a Landmarks, &'a Landmarks)> {
         match (&self.own, &other.own) {
             (Some(own), Some(others)) => Some((own, others)),
-            _ => Some((self.found()?, other.found()?)),
+            _ => Some((self.surface.landmarks()?, other.surface.landmarks()?)),
         }
-    }
-
-    fn found(&self) -> Option<&Landmarks> {
-        self.found.get_or_init(|| landmarks::found(&self.surface.mesh)).as_ref()
     }
 }
 

@@ -3,7 +3,7 @@
 use glam::DVec3;
 use serde::Serialize;
 
-use crate::body::{Surface, landmarks};
+use crate::body::Surface;
 use crate::cloth::{ClothState, EdgeMetric, FlatPiece, Garment};
 use crate::fit::{self, BodyIndex, Fallen, Moved, Report};
 use crate::geometry::words::{Value, Words, decimal, words};
@@ -127,8 +127,11 @@ struct Place {
 
 /// Where each pair of marks is, in the order of their numbers. Of landmarks at the sides of a limb only the limb is named.
 fn places(source: &GarmentSource, surface: &Surface) -> Vec<Place> {
-    let landmarks = landmarks::found(&surface.mesh);
-    let named = landmarks.iter().flat_map(|found| found.iter()).filter(|(name, _)| !name.ends_with("_x"));
+    let named = surface
+        .landmarks()
+        .into_iter()
+        .flat_map(|found| found.iter())
+        .filter(|(name, _)| !name.ends_with("_x"));
     let named: Vec<(&str, DVec3)> = named.collect();
     let place = |(cloth, body): (&ClothMark, &BodyMark)| {
         let middle = body.points.get(body.points.len() / 2).copied();

@@ -43,7 +43,7 @@ const LOWER: f64 = 0.2;
 /// Marks for the pieces of `pattern` that have a placement; empty when none of them can anchor the garment.
 /// `offset` is the height of the cloth above the skin, metres.
 pub fn suggested(pattern: &Pattern, surface: &Surface, offset: f64) -> Marks {
-    let trunk = Trunk::new(surface);
+    let trunk = Trunk::new(&surface.mesh);
     let mut strokes: Vec<Stroke> = Vec::new();
     let (cut, _) = CutPattern::new(pattern);
     match anchor(&cut) {

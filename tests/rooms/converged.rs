@@ -3,7 +3,7 @@
 
 use std::sync::Arc;
 
-use toile::body::{Surface, landmarks, mannequin};
+use toile::body::{Surface, mannequin};
 use toile::cloth::build;
 use toile::fit::{self, BodyIndex};
 use toile::relax::GlobalStep;
@@ -32,7 +32,7 @@ fn check(sample: Sample) -> Option<fit::Tight> {
     let mut dressing = dressing.expect("marks");
     while dressing.step(&mut state) != Phase::AtRest {}
     let report = fit::measure(pattern, &garment, &state, &BodyIndex::new(&body));
-    let tight = fit::tightest(&report, &garment, &state, || landmarks::found(&body.mesh));
+    let tight = fit::tightest(&report, &garment, &state, || body.landmarks());
 
     let mut relaxer = dressing.relaxer().expect("at rest").clone();
     let mut converged = state.clone();

@@ -140,7 +140,7 @@ fn what_is_cut_in_one_with_its_sleeves_is_raised_over_the_arms() {
     let figure = mannequin::mannequin(&measurements).expect("a body");
     let posed = rig(&measurements).expect("a rig").posed(&NamedPose::T.pose(&figure.skeleton));
     let posed = posed.expect("a pose");
-    let (surface, trunk) = (&posed.surface, Trunk::new(&posed.surface).expect("a trunk"));
+    let (surface, trunk) = (&posed.surface, Trunk::new(&posed.surface.mesh).expect("a trunk"));
     let form = Form::new(&measurements, NamedPose::T).expect("a form");
     let pattern = Design::drawn(1, 3, &[Kind::Dolman]).drafted(&form);
     let short = |pattern: &Pattern| {

@@ -61,7 +61,7 @@ fn drafted(kind: Kind, number: u32, pose: NamedPose) -> (Pattern, Arc<Surface>) 
 fn what_has_raglan_sleeves_hangs_from_the_shoulders() {
     for pose in [NamedPose::A, NamedPose::T] {
         let (pattern, surface) = drafted(Kind::Raglan, 3, pose);
-        let trunk = Trunk::new(&surface).expect("a trunk");
+        let trunk = Trunk::new(&surface.mesh).expect("a trunk");
         let stand = stand(&CutPattern::new(&pattern).0, &surface, &trunk, OFFSET).expect("a stand");
         assert!(stand.hangs && (stand.body - stand.placed).abs() < 0.05, "{stand:?}");
         let marks = suggested(&pattern, &surface, OFFSET);

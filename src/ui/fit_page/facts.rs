@@ -1,6 +1,5 @@
 //! The contents of the fit report, measured on the garment.
 
-use crate::body::landmarks;
 use crate::body::readings::Reading;
 use crate::fit::maps::PieceStats;
 use crate::fit::{self, BodyIndex, Girth, Map, MapKind, MapReader, Report, SeamFit, Tight};
@@ -58,7 +57,7 @@ impl Facts {
         let index = BodyIndex::new(body);
         let report = fit::measure(&source.pattern, garment, state, &index);
         let faults = sim::faults(&report, source, garment, state, &index, snapshot.lies());
-        let tight = fit::tightest(&report, garment, state, || landmarks::found(&body.mesh));
+        let tight = fit::tightest(&report, garment, state, || body.landmarks());
         let readings = readings_of(&session.document().body, &body.mesh).unwrap_or_default();
         let reader = MapReader::new(outfit.worn());
         let (maps, strains) = (

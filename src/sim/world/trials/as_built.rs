@@ -3,7 +3,7 @@
 
 use std::sync::Arc;
 
-use crate::body::{Surface, bones, landmarks};
+use crate::body::{Surface, bones};
 use crate::geometry::words::Words;
 use crate::pattern::Pattern;
 use crate::place::onto;
@@ -112,8 +112,7 @@ impl World {
 
 /// `source` with its pieces placed round `body`.
 fn placed_round(source: &Arc<GarmentSource>, body: &Surface) -> Arc<GarmentSource> {
-    let found = landmarks::found(&body.mesh);
-    let bones = found.map(|marks| bones::extracted(body, &marks)).unwrap_or_default();
+    let bones = body.landmarks().map(|marks| bones::extracted(body, marks)).unwrap_or_default();
     let mut pattern = Pattern::clone(&source.pattern);
     onto(&pattern, body, &bones, source.relax.offset * body.scale()).carry_out(&mut pattern);
     Arc::new(GarmentSource { pattern: Arc::new(pattern), ..GarmentSource::clone(source) })

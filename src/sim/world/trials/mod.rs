@@ -4,7 +4,7 @@ mod as_built;
 
 use std::sync::Arc;
 
-use crate::body::{Surface, landmarks};
+use crate::body::Surface;
 use crate::cloth::Skip;
 use crate::fit::{BodyIndex, Moved, Report, TightPlace, measure, tight_places, tops};
 use crate::geometry::words::{Words, words};
@@ -453,7 +453,7 @@ impl World {
         let report = measure(&source.pattern, garment, cloth, &index);
         Some(Judged {
             faults: faults(&report, source, garment, cloth, &index, lies),
-            tight: tight_places(&report, garment, cloth, || landmarks::found(&body.mesh)),
+            tight: tight_places(&report, garment, cloth, || body.landmarks()),
             places: places(&report, lies),
             is_astray: is_astray(&report),
         })
