@@ -4,6 +4,7 @@ mod change;
 mod conform;
 mod distance_map;
 mod excess;
+mod fastened;
 mod folds;
 mod limit;
 mod normal_check;

@@ -16,6 +16,7 @@ use crate::relax::{Acceleration, GlobalStep, RelaxSettings, Relaxer, global};
 use crate::repose::conform::carried;
 use crate::repose::distance_map::DistanceMap;
 use crate::repose::excess::Lengths;
+use crate::repose::fastened::Fastened;
 use crate::repose::folds::Folds;
 use crate::repose::pose_path::between;
 use crate::repose::settings::{Outcome, ReposeSettings};
@@ -41,6 +42,7 @@ pub struct Reposer {
     /// Solver for intermediate poses, made when first needed.
     rebuild: Option<Arc<Rebuild>>,
     pub(super) folds: Folds,
+    fastened: Fastened,
     /// Self-intersections when the cloth was bound.
     crossings: usize,
     /// Parts of the body that overlap each other in the pose.
@@ -64,7 +66,7 @@ impl Reposer {
         let as_it_lies = Arc::new(with_shape_of(garment, &cloth));
         let mut relaxer = Relaxer::new(as_it_lies, Arc::clone(&surface), settings)?;
         relaxer.set_mapped(&cloth.mapped);
-        let folds = Folds::of(garment, &cloth);
+        let (folds, fastened) = (Folds::of(garment, &cloth), Fastened::of(garment));
         let crossings = Intersections::new(garment, &cloth).places.len();
         let (rebuild, apart, beside) = (None, None, None);
         Some(Self {
@@ -76,6 +78,7 @@ impl Reposer {
             relaxer,
             rebuild,
             folds,
+            fastened,
             crossings,
             apart,
             beside,
@@ -217,6 +220,9 @@ impl Reposer {
             weight: false,
         };
         self.relaxer.global_steps(state, step, &PACES);
+        if self.fastened.follow(&self.relaxer.garment, state, self.relaxer.offset()) {
+            self.relaxer.forget_motion(state);
+        }
         if care.mends > 0 && done.is_multiple_of(STEPS_PER_LOOK) && self.relaxer.part_layers(state) == 0 {
             self.relaxer.ease_parting();
         }
