@@ -142,6 +142,8 @@ pub struct Snapshot {
     pub tight: Arc<Vec<TightPlace>>,
     /// Whether the cloth is being carried to another pose.
     pub is_posing: bool,
+    /// Whether the cloth lies as it was carried to the pose of the body, not draped there.
+    pub is_carried: bool,
     /// State of draping; None where nothing is draped.
     pub drape: Option<DrapeState>,
     /// How the cloth came to where it lies, which tells whether folds are a fault.

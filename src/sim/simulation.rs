@@ -189,6 +189,7 @@ impl Simulation {
             verdict: self.looked.as_ref().map(|looked| Arc::clone(&looked.faults)),
             tight: self.looked.as_ref().map_or_else(Arc::default, |looked| Arc::clone(&looked.tight)),
             is_posing: world.posing.is_some(),
+            is_carried: world.is_carried(),
             drape: world.drape_state(),
             moved: world.moved,
             was_sewn: world.was_sewn,

@@ -59,6 +59,7 @@ fn on_the_way_to_a_pose_it_can_be_undone_changed_and_worked_on() {
     run(&mut s, 200);
     let there = cloth_hash(&mut s);
     s.update();
+    assert!(s.snapshot().is_carried);
     let lying = Arc::clone(&s.snapshot().cloth);
     s.apply_alone(Command::Undo).expect("undone");
 
@@ -119,6 +120,7 @@ fn cloth_that_comes_to_run_through_itself_in_a_pose_is_draped_there() {
         snapshot.drape
     );
     let outcome = snapshot.reposed.expect("a change of pose");
+    assert!(!snapshot.is_carried, "it was draped there");
     assert!(outcome.crossings > 0, "it would not have needed draping: {outcome:?}");
     let garment = snapshot.garment.as_ref().expect("a skirt");
     assert_eq!(Intersections::new(garment, &snapshot.cloth).places.len(), 0);

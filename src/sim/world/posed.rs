@@ -23,6 +23,8 @@ pub struct Posed {
     pub(super) reposer: Reposer,
     pub(super) cloth: Arc<ClothState>,
     outcome: Outcome,
+    /// Whether it was draped in the pose.
+    pub(super) is_draped: bool,
 }
 
 /// A change of pose in progress. The cloth keeps its old state until it is done; meanwhile a preview in the new pose is shown.
@@ -174,7 +176,7 @@ impl World {
             .and_then(|garment| Splits::of_lying(garment, &cloth, to, source.relax.offset).map(Arc::new));
         let more_crossings = outcome.crossings > reposer.crossings();
         // The next change of pose cannot start from triangles that the body no longer has.
-        let posed = Posed { reposer, cloth: Arc::clone(&cloth), outcome };
+        let posed = Posed { reposer, cloth: Arc::clone(&cloth), outcome, is_draped: false };
         self.posed = size.is_none().then(|| Arc::new(posed));
         (self.source, self.body, self.cloth) = (Some(source), Some(size.unwrap_or(body)), cloth);
         (self.dressing, self.draping, self.was_sewn, self.hung_at) = (None, None, false, None);
@@ -195,9 +197,16 @@ impl World {
         self.lying_as_posed().map(|posed| posed.outcome)
     }
 
-    /// Declares the present position of the cloth the result of the change of pose `posed`.
-    pub(in crate::sim) fn lies_as(&mut self, posed: Arc<Posed>) {
-        self.posed = Some(Arc::new(Posed { cloth: Arc::clone(&self.cloth), ..Arc::unwrap_or_clone(posed) }));
+    /// Whether the cloth lies as it was carried to the pose of the body, not draped there.
+    pub fn is_carried(&self) -> bool {
+        self.lying_as_posed().is_some_and(|posed| !posed.is_draped)
+    }
+
+    /// Declares the present position of the cloth the result of the change of pose `posed`; `is_draped` tells whether it was draped
+    /// in the pose.
+    pub(in crate::sim) fn lies_as(&mut self, posed: Arc<Posed>, is_draped: bool) {
+        let cloth = Arc::clone(&self.cloth);
+        self.posed = Some(Arc::new(Posed { cloth, is_draped, ..Arc::unwrap_or_clone(posed) }));
     }
 
     fn lying_as_posed(&self) -> Option<&Arc<Posed>> {

@@ -207,7 +207,7 @@ impl App {
             dragging: snapshot.dragged.is_some(),
             relaxing: snapshot.relaxing,
             placed: document.pattern.pieces.values().any(|piece| piece.placement.is_some()),
-            carried: snapshot.reposed.is_some(),
+            carried: snapshot.is_carried,
             drape: snapshot.drape,
             phase: snapshot.phase,
             progress: snapshot.progress,

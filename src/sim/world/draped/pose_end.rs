@@ -97,7 +97,8 @@ impl World {
         let ends = self.draping.take().and_then(|draping| draping.ends.clone());
         let Some(EndOfPose { posed: Some(posed), otherwise: Some(otherwise) }) = ends else { return };
         (self.cloth, self.splits, self.hung_at) = (otherwise.cloth, otherwise.splits, None);
-        self.lies_as(posed);
+        let was_draped = posed.is_draped;
+        self.lies_as(posed, was_draped);
     }
 
     /// Ends a change of pose with the cloth at rest.
@@ -110,8 +111,8 @@ impl World {
             self.hung_at = None;
             return if is_better { self.end_pose(posed) } else { self.go_otherwise() };
         }
-        self.end_pose(posed.clone());
-        self.walk_if_worse(posed, &draping.source);
+        self.end_pose(posed);
+        self.walk_if_worse(self.posed.clone(), &draping.source);
     }
 
     /// Whether pieces hang much lower than they did.
@@ -125,7 +126,7 @@ impl World {
     fn end_pose(&mut self, posed: Option<Arc<Posed>>) {
         self.draping = None;
         if let Some(posed) = posed {
-            self.lies_as(posed);
+            self.lies_as(posed, true);
         }
     }
 }
