@@ -7,6 +7,7 @@ use std::collections::BinaryHeap;
 use crate::body::Surface;
 use crate::geometry::adjacency::NONE;
 use crate::geometry::crossings::self_crossings;
+use crate::geometry::disjoint_sets::DisjointSets;
 
 /// Distance along the skin from a self-intersection within which the intersecting parts exclude each other, metres on a body 1.5 m
 /// large. Chosen by trial; it bounds how much of the other part's skin cloth ignores.
@@ -33,7 +34,7 @@ impl BodyOverlaps {
     pub fn of(surface: &Surface, bound: &[Option<u32>]) -> Option<Self> {
         let (mesh, edges) = (&surface.mesh, &surface.adjacency.edges);
         let crossings = self_crossings(mesh, edges, &mesh.tree());
-        let mut sets = Sets::new(mesh.positions.len());
+        let mut sets = DisjointSets::new(mesh.positions.len());
         let mut seeds = Vec::new();
         for &[e, t] in &crossings {
             for &at in surface.adjacency.edge_triangles.of(e).iter().chain([&t]) {
@@ -109,29 +110,6 @@ fn grown(surface: &Surface, seeds: &[u32]) -> (Vec<u32>, Vec<f64>) {
         }
     }
     (nearest, far)
-}
-
-/// Disjoint sets (union-find); each is represented by its lowest member.
-struct Sets(Vec<u32>);
-
-impl Sets {
-    fn new(count: usize) -> Self {
-        Self((0..count as u32).collect())
-    }
-
-    fn root(&mut self, mut v: u32) -> u32 {
-        while self.0[v as usize] != v {
-            let up = self.0[self.0[v as usize] as usize];
-            self.0[v as usize] = up;
-            v = up;
-        }
-        v
-    }
-
-    fn join(&mut self, a: u32, b: u32) {
-        let [a, b] = [self.root(a), self.root(b)];
-        self.0[a.max(b) as usize] = a.min(b);
-    }
 }
 
 #[cfg(test)]

@@ -1,7 +1,8 @@
 //! Cloth that has other skin beside its outer side, such as a skirt beside a hand: it lies the right way round all the same.
 
 use crate::fit::laid::Laid;
-use crate::fit::shape::{join, neighbours, root};
+use crate::fit::shape::neighbours;
+use crate::geometry::disjoint_sets::DisjointSets;
 
 /// Largest share of the triangles near the body that may have skin beside their outer side. A hand or an arm is beside a few in a
 /// hundred; of a sleeve inside out it is nearly all.
@@ -26,8 +27,7 @@ pub(super) fn beside(laid: &Laid, wrong: &[Option<bool>]) -> Vec<Beside> {
     }
     let is_wrong = |t: usize| wrong[t] == Some(true);
     // Cloth without a crease, and in it what is wrong side out.
-    let own: Vec<u32> = (0..count as u32).collect();
-    let (mut smooth, mut patches) = (own.clone(), own);
+    let [mut smooth, mut patches] = [(); 2].map(|()| DisjointSets::new(count));
     let mut creased = vec![false; count];
     for [s, t] in neighbours(laid) {
         let [m, n] = [s, t].map(|t| {
@@ -40,13 +40,13 @@ pub(super) fn beside(laid: &Laid, wrong: &[Option<bool>]) -> Vec<Beside> {
             creased[t] |= wrong[s] == Some(false);
             continue;
         }
-        join(&mut smooth, s as u32, t as u32);
+        smooth.join(s as u32, t as u32);
         if is_wrong(s) && is_wrong(t) {
-            join(&mut patches, s as u32, t as u32);
+            patches.join(s as u32, t as u32);
         }
     }
-    let sheets: Vec<usize> = (0..count).map(|t| root(&mut smooth, t as u32) as usize).collect();
-    let patches: Vec<usize> = (0..count).map(|t| root(&mut patches, t as u32) as usize).collect();
+    let sheets: Vec<usize> = (0..count).map(|t| smooth.root(t as u32) as usize).collect();
+    let patches: Vec<usize> = (0..count).map(|t| patches.root(t as u32) as usize).collect();
     let (mut near, mut against, mut is_creased) =
         (vec![0usize; count], vec![0usize; count], vec![false; count]);
     for t in 0..count {

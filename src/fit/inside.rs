@@ -4,35 +4,32 @@ use rayon::prelude::*;
 
 use crate::body::Surface;
 use crate::fit::laid::Laid;
-use crate::fit::shape::{join, root};
+use crate::geometry::disjoint_sets::DisjointSets;
 use crate::geometry::parallel::LEAST_SHARE;
 use crate::geometry::winding::Winding;
 
 /// Signed distance of each of the used vertices of `laid` from the body, metres, negative inside by winding number. Cloth comes into a
-/// body only through its surface, so vertices are on the same side that are joined by edges that are not `through_body` (edge and
-/// triangle of the body): one winding number tells for all of them. Where the nearest skin says otherwise, as beside an edge that was
+/// body only through its surface, so vertices are on the same side that are joined by edges that it does not cut (`is_cut`
+/// tells for each edge): one winding number tells for all of them. Where the nearest skin says otherwise, as beside an edge that was
 /// missed by rounding, in an open body, or between parts of one that intersect each other, a vertex gets a winding number of its own.
 pub(super) fn signed_distances(
     laid: &Laid,
     (surface, winding): (&Surface, &Winding<'_>),
-    through_body: &[[u32; 2]],
+    is_cut: &[bool],
 ) -> Vec<f64> {
-    let mut goes_through = vec![false; laid.edges.len()];
-    through_body.iter().for_each(|&[e, _]| goes_through[e as usize] = true);
-    let mut parent: Vec<u32> = (0..laid.mesh.positions.len() as u32).collect();
-    for (&[a, b], _) in laid.edges.iter().zip(&goes_through).filter(|(_, through)| !**through) {
-        join(&mut parent, a, b);
+    let mut sides = DisjointSets::new(laid.mesh.positions.len());
+    for (&[a, b], _) in laid.edges.iter().zip(is_cut).filter(|(_, is_cut)| !**is_cut) {
+        sides.join(a, b);
     }
-    let roots: Vec<u32> = laid.used.iter().map(|&v| root(&mut parent, v)).collect();
+    let roots: Vec<u32> = laid.used.iter().map(|&v| sides.root(v)).collect();
     let place = |v: u32| laid.mesh.positions[v as usize];
-    // Of each part the first vertex stands for all.
-    let mut first: Vec<u32> = roots.clone();
-    first.sort_unstable();
-    first.dedup();
-    let is_inside: Vec<bool> = first.par_iter().map(|&v| winding.contains(place(v))).collect();
-    let distance = |(&v, part): (&u32, &u32)| {
+    let mut is_inside = vec![false; laid.mesh.positions.len()];
+    for (&v, _) in laid.used.iter().zip(&roots).filter(|(v, root)| v == root) {
+        is_inside[v as usize] = winding.contains(place(v));
+    }
+    let distance = |(&v, root): (&u32, &u32)| {
         let near = surface.nearest(place(v));
-        let inside = first.binary_search(part).is_ok_and(|k| is_inside[k]);
+        let inside = is_inside[*root as usize];
         let is_sure = inside == (near.distance < 0.0);
         let inside = if is_sure { inside } else { winding.contains(place(v)) };
         let distance = near.point.distance(place(v));
@@ -87,8 +84,10 @@ mod tests {
                 let state = ClothState { mapped: vec![true; positions.len()], positions };
                 let laid = Laid::new(&garment, &state);
                 let through = meetings(&laid.mesh.positions, &laid.edges, &surface.mesh, winding.tree());
-                let known = if knows_cuts { &through[..] } else { &[] };
-                for (&v, signed) in laid.used.iter().zip(signed_distances(&laid, (&surface, &winding), known))
+                let mut known = vec![false; laid.edges.len()];
+                through.iter().filter(|_| knows_cuts).for_each(|&[e, _]| known[e as usize] = true);
+                for (&v, signed) in
+                    laid.used.iter().zip(signed_distances(&laid, (&surface, &winding), &known))
                 {
                     let p = laid.mesh.positions[v as usize];
                     assert_eq!(signed < 0.0, winding.contains(p), "{p:?}");

@@ -62,7 +62,7 @@ pub struct Clearance {
     pub p95: f64,
 }
 
-/// A body prepared for measurements; build it once per body.
+/// A body prepared for measurements.
 #[derive(Debug)]
 pub struct BodyIndex<'a> {
     surface: &'a Surface,
@@ -70,7 +70,7 @@ pub struct BodyIndex<'a> {
 }
 
 impl<'a> BodyIndex<'a> {
-    /// Builds the index.
+    /// The body of `surface`, which keeps what is built for it.
     pub fn new(surface: &'a Surface) -> Self {
         Self { surface, winding: surface.winding() }
     }
@@ -138,8 +138,10 @@ pub(super) fn on_body(
     let body_edges = &body.surface.adjacency.edges;
     let through_body = meetings(&laid.mesh.positions, &laid.edges, body_mesh, body.winding.tree());
     let through_cloth = meetings(&body_mesh.positions, body_edges, &laid.mesh, cloth_tree);
-    let (distances, penetrating_vertices) = distances(laid, body, &through_body);
-    let cut = cut_faces(laid, &through_body, &through_cloth, &penetrating_vertices);
+    let mut cut_edges = vec![false; laid.edges.len()];
+    through_body.iter().for_each(|&[e, _]| cut_edges[e as usize] = true);
+    let (distances, penetrating_vertices) = distances(laid, body, &cut_edges);
+    let cut = cut_faces(laid, &cut_edges, &through_cloth, &penetrating_vertices);
     let wrong = wrong_side_out(laid, body);
     let beside = beside(laid, &wrong);
     let is_smooth = |t: usize| beside[t] == Beside::Smooth;
@@ -167,8 +169,8 @@ fn without(laid: &Laid, pieces: &BTreeSet<PieceId>) -> TriMesh {
 }
 
 /// Signed distances of the vertices, ascending, and for each vertex whether it is inside.
-fn distances(laid: &Laid, body: &BodyIndex<'_>, through_body: &[[u32; 2]]) -> (Vec<f64>, Vec<bool>) {
-    let signed = signed_distances(laid, (body.surface, &body.winding), through_body);
+fn distances(laid: &Laid, body: &BodyIndex<'_>, cut_edges: &[bool]) -> (Vec<f64>, Vec<bool>) {
+    let signed = signed_distances(laid, (body.surface, &body.winding), cut_edges);
     let mut inside = vec![false; laid.mesh.positions.len()];
     for (&v, &d) in laid.used.iter().zip(&signed) {
         inside[v as usize] = d < 0.0;
@@ -180,16 +182,7 @@ fn distances(laid: &Laid, body: &BodyIndex<'_>, through_body: &[[u32; 2]]) -> (V
 
 /// Triangles that may have a point inside: a vertex is inside, or the body's surface cuts them. All others are wholly on the side
 /// of their vertices.
-fn cut_faces(
-    laid: &Laid,
-    through_body: &[[u32; 2]],
-    through_cloth: &[[u32; 2]],
-    inside: &[bool],
-) -> Vec<u32> {
-    let mut cut_edges = vec![false; laid.edges.len()];
-    for &[e, _] in through_body {
-        cut_edges[e as usize] = true;
-    }
+fn cut_faces(laid: &Laid, cut_edges: &[bool], through_cloth: &[[u32; 2]], inside: &[bool]) -> Vec<u32> {
     let mut cut: Vec<bool> = laid
         .mesh
         .triangles

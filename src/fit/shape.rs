@@ -6,6 +6,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::cloth::Garment;
 use crate::fit::laid::Laid;
+use crate::geometry::disjoint_sets::DisjointSets;
 use crate::geometry::ids::PieceId;
 
 /// Flat edges shorter than this (metres) have no strain.
@@ -197,28 +198,12 @@ pub(super) fn neighbours(laid: &Laid) -> Vec<[usize; 2]> {
 
 /// Number of connected components in space.
 pub(super) fn pieces_in_space(laid: &Laid) -> usize {
-    let mut parent: Vec<u32> = (0..laid.mesh.positions.len() as u32).collect();
+    let mut sets = DisjointSets::new(laid.mesh.positions.len());
     for &[a, b, c] in &laid.mesh.triangles {
-        for other in [b, c] {
-            join(&mut parent, a, other);
-        }
+        sets.join(a, b);
+        sets.join(a, c);
     }
-    laid.used.iter().filter(|&&v| root(&mut parent, v) == v).count()
-}
-
-/// Unites the sets of `a` and `b`, in a forest of disjoint sets.
-pub(super) fn join(parent: &mut [u32], a: u32, b: u32) {
-    let (a, b) = (root(parent, a), root(parent, b));
-    parent[a.max(b) as usize] = a.min(b);
-}
-
-/// The set that `v` belongs to, in a forest of disjoint sets.
-pub(super) fn root(parent: &mut [u32], mut v: u32) -> u32 {
-    while parent[v as usize] != v {
-        parent[v as usize] = parent[parent[v as usize] as usize];
-        v = parent[v as usize];
-    }
-    v
+    laid.used.iter().filter(|&&v| sets.root(v) == v).count()
 }
 
 /// Sewn vertices that belong to more than one piece.

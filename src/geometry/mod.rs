@@ -9,6 +9,7 @@ pub mod bvh;
 pub mod bvh4;
 pub mod conjugate_gradients;
 pub mod crossings;
+pub mod disjoint_sets;
 pub mod factor;
 pub mod ids;
 pub mod mesh;

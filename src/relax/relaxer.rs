@@ -553,9 +553,9 @@ impl Relaxer {
         let (garment, drawn) = drawn.as_ref().map_or((&self.garment, state), |(g, s)| (g, s));
         let laid = |e: &[u32; 2]| e.iter().all(|&v| drawn.mapped[v as usize]);
         let edges: Vec<[u32; 2]> = garment.adjacency.edges.iter().copied().filter(laid).collect();
-        let body = &self.surface.mesh;
+        let (body, winding) = (&self.surface.mesh, self.surface.winding());
         // A self-intersection counts for twenty: finer meshes seldom repair it.
-        meetings(&drawn.positions, &edges, body, &body.tree()).len()
+        meetings(&drawn.positions, &edges, body, winding.tree()).len()
             + self.wrong_faces(state).iter().flatten().count()
             + 20 * Intersections::new(&self.garment, state).places.len()
     }

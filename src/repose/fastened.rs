@@ -1,10 +1,13 @@
 //! Parts of a garment that only buttons hold, such as a bow, go with what they are buttoned to. Global steps and contact do not know of
 //! buttons: without this such a part drifts away on a long way.
 
+use std::cmp::Reverse;
+
 use glam::DVec3;
 
 use crate::cloth::trims::ClothPoint;
 use crate::cloth::{ClothState, Garment};
+use crate::geometry::disjoint_sets::DisjointSets;
 
 /// A part that is sewn to nothing else.
 #[derive(Clone, Debug)]
@@ -26,12 +29,17 @@ impl Fastened {
         if garment.trims.buttons.is_empty() {
             return Self::default();
         }
-        let (part_of, sizes) = parts(garment);
+        let mut sets = DisjointSets::new(garment.vertex_count);
+        garment.adjacency.edges.iter().for_each(|&[a, b]| sets.join(a, b));
+        let part_of: Vec<u32> = (0..garment.vertex_count as u32).map(|v| sets.root(v)).collect();
+        let mut sizes = vec![0u32; garment.vertex_count];
+        part_of.iter().for_each(|&part| sizes[part as usize] += 1);
         let part = |point: &ClothPoint| part_of[garment.corners[point.corners[0] as usize].vertex as usize];
         // Larger parts first; of equal ones the first.
-        let rank = |part: u32| (std::cmp::Reverse(sizes[part as usize]), part);
-        let mut order: Vec<u32> = (0..sizes.len() as u32).collect();
-        order.sort_by_key(|&p| rank(p));
+        let rank = |part: u32| (Reverse(sizes[part as usize]), part);
+        let mut order: Vec<u32> = garment.trims.buttons.iter().flatten().map(part).collect();
+        order.sort_by_key(|&part| rank(part));
+        order.dedup();
         let follows = |&own: &u32| {
             let buttons = garment.trims.buttons.iter().filter_map(|&[a, b]| match [part(&a), part(&b)] {
                 [of_a, of_b] if of_b == own && rank(of_a) < rank(own) => Some([a, b]),
@@ -62,30 +70,6 @@ impl Fastened {
         }
         has_moved
     }
-}
-
-/// The part that each vertex belongs to, and the number of vertices of each.
-fn parts(garment: &Garment) -> (Vec<u32>, Vec<usize>) {
-    let (mut part_of, mut sizes) = (vec![u32::MAX; garment.vertex_count], Vec::new());
-    for start in 0..garment.vertex_count {
-        if part_of[start] != u32::MAX {
-            continue;
-        }
-        let own = sizes.len() as u32;
-        part_of[start] = own;
-        let (mut open, mut size) = (vec![start as u32], 0);
-        while let Some(v) = open.pop() {
-            size += 1;
-            for &other in garment.adjacency.vertex_neighbours.of(v) {
-                if part_of[other as usize] == u32::MAX {
-                    part_of[other as usize] = own;
-                    open.push(other);
-                }
-            }
-        }
-        sizes.push(size);
-    }
-    (part_of, sizes)
 }
 
 #[cfg(test)]

@@ -71,7 +71,7 @@ impl DrapedGarment {
         let mut cut = vec![false; raised.len()];
         let mut mark =
             |vs: &[u32]| vs.iter().filter_map(|&v| own_number(&fixed.own, v)).for_each(|v| cut[v] = true);
-        for [e, _] in meetings(&mesh.positions, &edges, body, &body.tree()) {
+        for [e, _] in meetings(&mesh.positions, &edges, body, surface.winding().tree()) {
             mark(&edges[e as usize]);
         }
         for [_, t] in meetings(&body.positions, &surface.adjacency.edges, &mesh, &mesh.tree()) {

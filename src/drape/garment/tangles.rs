@@ -71,7 +71,7 @@ impl DrapedGarment {
     /// Whether it is known that the cloth crosses neither itself nor the body: the last detection found it so, and since then no vertex
     /// has passed a plane between features.
     pub(super) fn is_known_clean(&self) -> bool {
-        self.settings.skips.allow(Skip::Crossings) && !self.was_on_card && self.small.stays_clean()
+        self.settings.skips.allow(Skip::Crossings) && !self.was_on_card && self.small.is_known_clean()
     }
 
     /// Makes a separation step with the displacements `ways`, and counts the `places` of self-intersection.

@@ -458,7 +458,7 @@ impl SmallSteps {
     }
 
     /// Whether the last detection found the cloth to cross neither itself nor the body.
-    pub fn stays_clean(&self) -> bool {
+    pub fn is_known_clean(&self) -> bool {
         self.separation.as_ref().is_some_and(Separation::is_clean)
     }
 
