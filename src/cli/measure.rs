@@ -42,7 +42,7 @@ pub fn measure(arguments: &Measure) -> Result<(), Failure> {
         return Ok(());
     }
     for Reading { name, metres, height, .. } in readings {
-        let at = height.map_or(String::new(), |height| format!("   at {:.1}", height * 100.0));
+        let at = height.map_or(String::new(), |height| format!("   at {:.1} cm", height * 100.0));
         output::say(&format!("{name:<14}{:>8.1} cm{at}", metres * 100.0));
     }
     Ok(())

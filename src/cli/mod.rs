@@ -47,9 +47,10 @@ mod texture_options;
 mod verdict;
 
 use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::path::Path;
 use std::process::ExitCode;
 
-use clap::Parser;
+use clap::{CommandFactory, Parser};
 use tracing_subscriber::EnvFilter;
 
 use crate::cli::arguments::{Arguments, Report, ReportTask, Task};
@@ -128,9 +129,25 @@ fn listen_to_traces() {
 
 /// Prints help, version or usage errors. Help and version go to standard output and are no failure.
 fn show_usage(error: &clap::Error) -> u8 {
-    // If the output is closed there is nothing left to do.
-    error.print().ok();
+    match misspelt(error) {
+        Some(words) => output::complain(&words),
+        // If the output is closed there is nothing left to do.
+        None => error.print().unwrap_or_default(),
+    }
     u8::try_from(error.exit_code()).unwrap_or(2)
+}
+
+/// What to say where the first word is neither a command nor a file, so that clap took it for a project.
+fn misspelt(error: &clap::Error) -> Option<String> {
+    let first = std::env::args_os().nth(1)?;
+    let word = first.to_str().filter(|word| !word.starts_with('-') && !Path::new(word).exists())?;
+    let commands = Arguments::command();
+    let mut names = commands.get_subcommands().map(clap::Command::get_name);
+    if error.kind() != clap::error::ErrorKind::ArgumentConflict || names.any(|name| name == word) {
+        return None;
+    }
+    let names: Vec<&str> = commands.get_subcommands().map(clap::Command::get_name).collect();
+    Some(format!("error: {word} is neither a command nor a file\n\ncommands: {}", names.join(", ")))
 }
 
 fn panic_words(panic: &std::panic::PanicHookInfo) -> String {
