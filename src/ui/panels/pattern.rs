@@ -206,7 +206,8 @@ pub fn seams_ui(ui: &mut egui::Ui, told: &PanelContext<'_>, asks: &mut Asks) {
             if sign_button(ui, Sign::Cross, true, &name, tr("Undo this seam")) {
                 asks.push(ask(vec![PatternEdit::Unpick { seams: vec![id] }]));
             }
-            let text = RichText::new(&words).size(12.5);
+            // Messages name seams by their numbers.
+            let text = RichText::new(format!("{} · {words}", id.0)).size(12.5);
             row(ui, told, Item::Seam(id), text, &say!("Select {name}", name = words), asks);
         });
     }
@@ -214,7 +215,8 @@ pub fn seams_ui(ui: &mut egui::Ui, told: &PanelContext<'_>, asks: &mut Asks) {
 
 fn row(ui: &mut egui::Ui, told: &PanelContext<'_>, item: Item, text: RichText, words: &str, asks: &mut Asks) {
     let is_selected = told.selection.has(item);
-    let button = ui.add(Button::selectable(is_selected, text).truncate());
+    let whole = text.text().to_owned();
+    let button = ui.add(Button::selectable(is_selected, text).truncate()).on_hover_text(whole);
     button.widget_info(|| WidgetInfo::selected(Role::Button, true, is_selected, words));
     if button.clicked() {
         let more = held(ui).shift || held(ui).command;
