@@ -15,7 +15,7 @@ use crate::body::Surface;
 use crate::geometry::adjacency::NONE;
 use crate::geometry::parallel::LEAST_SHARE;
 use crate::geometry::rebuild::Rebuild;
-use crate::repose::turns::{gradient, mean, triangle_turn, turns};
+use crate::repose::turns::{gradient, triangle_turn, turns, whole_turn};
 
 /// Intermediate bodies between `from` and `to`: enough for a few degrees of rotation from one to the next, but at most `most`.
 /// They keep the position and orientation of `from`; the rigid motion of the whole body is left for the last step, where
@@ -29,7 +29,7 @@ pub(super) fn between(
     let vertices: Vec<u32> = (0..from.mesh.positions.len() as u32).collect();
     let turned: Vec<DQuat> =
         turns(from, to, &vertices).into_iter().map(|turn| turn.unwrap_or(DQuat::IDENTITY)).collect();
-    let whole = mean(turned.iter().map(|&turn| (turn, 1.0)));
+    let whole = whole_turn(from, to);
     let mut angles: Vec<f64> = turned.iter().map(|&turn| turn.angle_between(whole)).collect();
     // One in twenty vertices may turn further: fingers and toes are not covered by cloth.
     let at = ((angles.len() as f64 * (1.0 - 0.05)) as usize).min(angles.len().saturating_sub(1));
@@ -70,10 +70,7 @@ impl PosePath {
         if from.mesh.triangles != to.mesh.triangles || to.mesh.positions.len() != count {
             return None;
         }
-        let vertices: Vec<u32> = (0..count as u32).collect();
-        let turned = turns(from, to, &vertices);
-        let whole = mean(turned.into_iter().map(|turn| (turn.unwrap_or(DQuat::IDENTITY), 1.0)));
-        let standing = Standing::new(from, to, whole);
+        let standing = Standing::new(from, to, whole_turn(from, to));
         Some(Self {
             from: Arc::clone(from),
             to: Arc::clone(to),

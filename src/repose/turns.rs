@@ -5,7 +5,7 @@
 //! opposite ones (ALGORITHMS.md 1.C). A vertex has the area-weighted mean of its triangles, so that neighbouring points of the
 //! skin rotate alike.
 
-use glam::{DMat3, DQuat, DVec2, DVec3};
+use glam::{DMat3, DMat4, DQuat, DVec2, DVec3, DVec4};
 use rayon::prelude::*;
 
 use crate::body::Surface;
@@ -27,6 +27,34 @@ pub(super) fn turns(from: &Surface, to: &Surface, vertices: &[u32]) -> Vec<Optio
         Some(mean(turns))
     };
     vertices.par_iter().with_min_len(LEAST_SHARE).map(turn).collect()
+}
+
+/// Rotation of the body as a whole: the mean over its surface. By area, as the vertices of hands and face lie close together and may
+/// be as many as all the others.
+///
+/// The mean is the eigenvector of the largest eigenvalue of Σ w q qᵀ, so that the signs of the quaternions do not matter (Markley,
+/// Cheng, Crassidis and Oshman 2007, "Averaging Quaternions").
+pub(super) fn whole_turn(from: &Surface, to: &Surface) -> DQuat {
+    let squared = |t: usize| {
+        let corners = from.mesh.corners(t);
+        let turn = DVec4::from(triangle_turn(corners, to.mesh.corners(t)));
+        DMat4::from_cols_array_2d(&turn.to_array().map(|part| (turn * part * area(corners)).to_array()))
+    };
+    let all: Vec<DMat4> =
+        (0..from.mesh.triangles.len()).into_par_iter().with_min_len(LEAST_SHARE).map(squared).collect();
+    let mut power = all.into_iter().fold(DMat4::ZERO, |sum, one| sum + one);
+    // Squared thirty times the matrix has the eigenvector in every column, unless two eigenvalues are the same.
+    for _ in 0..30 {
+        let trace: f64 = (0..4).map(|k| power.col(k)[k]).sum();
+        if trace <= f64::MIN_POSITIVE {
+            return DQuat::IDENTITY;
+        }
+        power *= 1.0 / trace;
+        power = power * power;
+    }
+    let longest =
+        (0..4).map(|k| power.col(k)).max_by(|a, b| a.length_squared().total_cmp(&b.length_squared()));
+    longest.and_then(DVec4::try_normalize).map_or(DQuat::IDENTITY, DQuat::from_vec4)
 }
 
 /// Weighted mean of rotations that are close to each other; the identity where there are none.
@@ -84,6 +112,8 @@ fn framed([a, b, c]: [DVec3; 3]) -> Option<(DMat3, [DVec2; 2])> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::geometry::mesh::TriMesh;
+    use crate::geometry::shapes::icosphere;
 
     const FROM: [DVec3; 3] =
         [DVec3::new(0.3, 0.1, -0.2), DVec3::new(1.2, 0.4, 0.1), DVec3::new(0.5, 1.1, 0.3)];
@@ -112,6 +142,29 @@ mod tests {
     fn a_collapsed_triangle_turns_nothing() {
         assert_eq!(triangle_turn([DVec3::ZERO; 3], FROM), DQuat::IDENTITY);
         assert_eq!(triangle_turn(FROM, [DVec3::ZERO, DVec3::X, DVec3::X * 2.0]), DQuat::IDENTITY);
+    }
+
+    #[test]
+    fn the_turn_of_a_whole_body_is_that_of_its_larger_part_however_fine_the_other() {
+        // A finely triangulated ball of 2 cm beside a coarse one of 30 cm.
+        let (large, small) = (icosphere(0.3, 2), icosphere(0.02, 4));
+        let count = large.positions.len();
+        assert!(small.positions.len() > 10 * count);
+        let placed = |turns: [DQuat; 2]| {
+            let one = large.positions.iter().map(|p| turns[0] * *p);
+            let other = small.positions.iter().map(|p| turns[1] * *p + DVec3::X);
+            one.chain(other).collect::<Vec<_>>()
+        };
+        let others = small.triangles.iter().map(|t| t.map(|v| v + count as u32));
+        let triangles = large.triangles.iter().copied().chain(others).collect();
+        let mesh = TriMesh { positions: placed([DQuat::IDENTITY; 2]), triangles };
+        let from = Surface::new(mesh).expect("two balls");
+        let to = |turns| from.reposed(placed(turns)).expect("as many vertices");
+        let (little, over) = (DQuat::from_rotation_z(0.2), DQuat::from_rotation_x(3.0));
+        let found = whole_turn(&from, &to([little, over]));
+        assert!(found.angle_between(little) < 0.03, "{}", found.angle_between(little));
+        let found = whole_turn(&from, &to([over, over]));
+        assert!(found.angle_between(over) < 1e-9, "{}", found.angle_between(over));
     }
 
     #[test]

@@ -101,11 +101,11 @@ fn on_the_way_to_a_pose_it_can_be_undone_changed_and_worked_on() {
     Replay::new(recording).run().expect("the same hashes");
 }
 
-/// A skirt whose hem folds under the thighs.
+/// A dress whose skirt folds under the thighs.
 #[test]
 fn cloth_that_comes_to_run_through_itself_in_a_pose_is_draped_there() {
-    let mut project = Sample::Skirt.project(&mannequin::default());
-    project.document.settings.edge_length = 0.02;
+    let mut project = Sample::Dress.project(&mannequin::default());
+    project.document.settings.edge_length = 0.03;
     let mut s = Session::new(project, Runner::inline(Simulation::default()));
     s.apply_alone(Command::Wrap).expect("wrapped");
     run(&mut s, 3000);
@@ -122,7 +122,7 @@ fn cloth_that_comes_to_run_through_itself_in_a_pose_is_draped_there() {
     let outcome = snapshot.reposed.expect("a change of pose");
     assert!(!snapshot.is_carried, "it was draped there");
     assert!(outcome.crossings > 0, "it would not have needed draping: {outcome:?}");
-    let garment = snapshot.garment.as_ref().expect("a skirt");
+    let garment = snapshot.garment.as_ref().expect("a dress");
     assert_eq!(Intersections::new(garment, &snapshot.cloth).places.len(), 0);
     s.apply_alone(Command::Repose { body, settle: false, draft: false }).expect("posed");
     run(&mut s, 20_000);
