@@ -21,7 +21,7 @@
 //! | `drape`    | physics: forces (membrane, bending, folds, elastic), contact, solvers (implicit steps, small steps, direct equilibrium); a garment on its body, on a graphics card where one may be used; sewing | card, contact, cloth, body, geometry |
 //! | `repose`   | paper C: distance map, conforming to another pose of the body, recovery, strain limiting | relax, contact, cloth, body, pattern, geometry |
 //! | `place`    | placement of pieces in space before they are sewn: points round the body, tubes round limbs, a file's placement adapted to another body, sleeves moved to their arms, what turns over folded | wrap, contact, cloth, body, pattern, geometry |
-//! | `fit`      | measurements of a garment: strain, self-intersections, openings, the report, maps | cloth, body, pattern, geometry |
+//! | `fit`      | measurements of a garment: strain, self-intersections, openings, the report, maps | contact, cloth, body, pattern, geometry |
 //! | `sim`      | owner of the moving state: stages, protocol, checkpoints, thread, state hash | the above |
 //! | `session`  | the user's work: document, commands, history, recording, replay, project file, recovery; samples | sim and below, place, io, draft |
 //! | `draft`    | garments of our own, drawn from a seed and drafted to the mannequin's measurements: parts, designs, body sizes, the corpus | body, pattern, geometry |

@@ -12,6 +12,7 @@ use crate::body::closest::{ClosestTree, Part, pseudonormal};
 use crate::body::landmarks::{self, Landmarks};
 use crate::body::readings::{Reading, read};
 use crate::geometry::adjacency::{Adjacency, NONE};
+use crate::geometry::crossings::self_crossings;
 use crate::geometry::mesh::TriMesh;
 use crate::geometry::parallel::LEAST_SUMS;
 use crate::geometry::winding::{Winding, WindingTree};
@@ -53,6 +54,7 @@ struct Lazily {
     winding: OnceLock<WindingTree>,
     landmarks: OnceLock<Option<Landmarks>>,
     readings: OnceLock<Option<Vec<Reading>>>,
+    self_crossings: OnceLock<Vec<[u32; 2]>>,
 }
 
 /// The surface of a body, prepared for queries. Built once and shared.
@@ -138,6 +140,12 @@ impl Surface {
     /// The measurements read on the body; None where it does not look human.
     pub fn readings(&self) -> Option<&[Reading]> {
         self.lazily.readings.get_or_init(|| read(&self.mesh, self.landmarks()?, None)).as_deref()
+    }
+
+    /// Where the body passes through itself: pairs of an edge of [`Self::adjacency`] and a triangle.
+    pub fn self_crossings(&self) -> &[[u32; 2]] {
+        let found = || self_crossings(&self.mesh, &self.adjacency.edges, &self.mesh.tree());
+        self.lazily.self_crossings.get_or_init(found)
     }
 
     /// Lower and upper corner of the bounding box, metres.

@@ -6,7 +6,6 @@ use std::collections::BinaryHeap;
 
 use crate::body::Surface;
 use crate::geometry::adjacency::NONE;
-use crate::geometry::crossings::self_crossings;
 use crate::geometry::disjoint_sets::DisjointSets;
 
 /// Distance along the skin from a self-intersection within which the intersecting parts exclude each other, metres on a body 1.5 m
@@ -33,10 +32,10 @@ impl BodyOverlaps {
     /// triangle of the body to which it belongs.
     pub fn of(surface: &Surface, bound: &[Option<u32>]) -> Option<Self> {
         let (mesh, edges) = (&surface.mesh, &surface.adjacency.edges);
-        let crossings = self_crossings(mesh, edges, &mesh.tree());
+        let crossings = surface.self_crossings();
         let mut sets = DisjointSets::new(mesh.positions.len());
         let mut seeds = Vec::new();
-        for &[e, t] in &crossings {
+        for &[e, t] in crossings {
             for &at in surface.adjacency.edge_triangles.of(e).iter().chain([&t]) {
                 let [a, b, c] = mesh.triangles[at as usize];
                 sets.join(a, b);
@@ -64,7 +63,7 @@ impl BodyOverlaps {
         };
         let parts = roots.len();
         let mut cross = vec![false; parts * parts];
-        for &[e, t] in &crossings {
+        for &[e, t] in crossings {
             let [p, q] = [edges[e as usize][0], mesh.triangles[t as usize][0]].map(|v| part(v) as usize);
             if p != q {
                 (cross[p * parts + q], cross[q * parts + p]) = (true, true);
@@ -76,6 +75,12 @@ impl BodyOverlaps {
         let of_triangle: Vec<u32> = mesh.triangles.iter().map(|corners| part(corners[0])).collect();
         let of_vertex = bound.iter().map(|bound| bound.map_or(NONE, |t| of_triangle[t as usize])).collect();
         Some(Self { of_vertex, of_triangle, cross, parts })
+    }
+
+    /// Whether another part of the body passes through it at `triangle` or near it.
+    pub fn is_crossed(&self, triangle: u32) -> bool {
+        let part = self.of_triangle[triangle as usize];
+        part != NONE && self.cross[part as usize * self.parts..][..self.parts].contains(&true)
     }
 
     /// Whether cloth vertex `vertex` ignores `triangle` of the body.

@@ -50,6 +50,7 @@ pub fn measure(pattern: &Pattern, garment: &Garment, state: &ClothState, body: &
         penetration: sits.penetration,
         edges_through_body: sits.edges_through_body,
         body_edges_through_garment: sits.body_edges_through_garment,
+        cuts_at_body_overlaps: sits.cuts_at_body_overlaps,
         faces_near_body: sits.faces_near_body,
         flipped_faces: sits.flipped_faces,
         faces_in_folds: sits.faces_in_folds,

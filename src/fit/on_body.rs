@@ -8,6 +8,7 @@ use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
 use crate::body::Surface;
+use crate::contact::BodyOverlaps;
 use crate::fit::beside::{Beside, beside};
 use crate::fit::inside::signed_distances;
 use crate::fit::laid::Laid;
@@ -112,6 +113,7 @@ pub(super) struct OnBody {
     pub penetration: Penetration,
     pub edges_through_body: usize,
     pub body_edges_through_garment: usize,
+    pub cuts_at_body_overlaps: usize,
     pub faces_near_body: usize,
     pub flipped_faces: usize,
     pub faces_in_folds: usize,
@@ -148,10 +150,16 @@ pub(super) fn on_body(
     let mut folded = in_folds(laid, cloth_tree, body, &wrong);
     folded.retain(|(t, _)| !is_smooth(*t));
     let hangs = |t: usize| beside[t] == Beside::Crumpled || is_between(laid, body, t);
+    let through_skin: Vec<u32> = through_body.iter().map(|&[_, t]| t).filter(|&t| body.is_skin(t)).collect();
+    let skin_through: Vec<u32> =
+        through_cloth.iter().map(|&[e, _]| e).filter(|&e| body.is_skin_edge(e)).collect();
+    let side = |&e: &u32| body.surface.adjacency.edge_triangles.of(e).first().copied();
+    let cuts: Vec<u32> = through_skin.iter().copied().chain(skin_through.iter().filter_map(side)).collect();
     OnBody {
         penetration: penetration(laid, body, &distances, &cut),
-        edges_through_body: through_body.iter().filter(|&&[_, t]| body.is_skin(t)).count(),
-        body_edges_through_garment: through_cloth.iter().filter(|&&[e, _]| body.is_skin_edge(e)).count(),
+        edges_through_body: through_skin.len(),
+        body_edges_through_garment: skin_through.len(),
+        cuts_at_body_overlaps: at_overlaps(body.surface, &cuts),
         faces_near_body: wrong.iter().filter(|f| f.is_some()).count(),
         flipped_faces: wrong.iter().filter(|f| **f == Some(true)).count(),
         faces_in_folds: folded.iter().filter(|(_, folded)| *folded).count(),
@@ -160,6 +168,12 @@ pub(super) fn on_body(
         clearance: Clearance { median: quantile(&distances, 0.5), p95: quantile(&distances, 0.95) },
         openings: openings(&garment, body_mesh, body.winding.tree(), flat, |t| body.is_skin(t)),
     }
+}
+
+/// How many of these triangles of the body are near places where parts of it pass through each other.
+fn at_overlaps(surface: &Surface, triangles: &[u32]) -> usize {
+    let overlaps = if triangles.is_empty() { None } else { BodyOverlaps::of(surface, &[]) };
+    overlaps.map_or(0, |overlaps| triangles.iter().filter(|&&t| overlaps.is_crossed(t)).count())
 }
 
 /// The mesh of `laid` without these pieces.

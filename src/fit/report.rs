@@ -58,6 +58,9 @@ pub struct Report {
     pub edges_through_body: usize,
     /// Pairs of an edge of the skin and a cloth triangle that cross.
     pub body_edges_through_garment: usize,
+    /// How many of these two are near places where parts of the body pass through each other.
+    #[serde(default)]
+    pub cuts_at_body_overlaps: usize,
     /// Triangles whose centroid is within 2 cm of the body.
     pub faces_near_body: usize,
     /// Triangles near the body with their outer side towards it.

@@ -279,6 +279,20 @@ fn a_body_thicker_than_a_sleeve_in_part_cuts_it() {
     let report = report(&sleeve(r, |p| DVec3::new(p.x + 0.02, p.y, p.z)), body);
     assert!(report.edges_through_body > 0 && report.body_edges_through_garment > 0);
     assert!(words(&report).contains("cut through each other"));
+    assert_eq!(report.cuts_at_body_overlaps, 0);
+}
+
+#[test]
+fn where_parts_of_the_body_pass_through_each_other_that_is_told() {
+    let r = exact_radius();
+    let mut body = cylinder(r - 0.03, 0.2, 0.65, 48, 9);
+    let count = body.positions.len() as u32;
+    let other = cylinder(r - 0.03, 0.3, 0.5, 48, 9);
+    body.positions.extend(other.positions.iter().map(|p| *p + DVec3::X * r));
+    body.triangles.extend(other.triangles.iter().map(|t| t.map(|v| v + count)));
+    let report = report(&sleeve(r, |p| p), body);
+    assert!(report.cuts_at_body_overlaps > 0);
+    assert!(words(&report).contains("parts of the body pass through each other"));
 }
 
 #[test]

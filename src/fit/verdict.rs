@@ -158,6 +158,10 @@ impl Faults {
                 1 => words!("cloth and skin cut through each other in 1 place"),
                 n => words!("cloth and skin cut through each other in {n} places", n),
             };
+            let words = match report.cuts_at_body_overlaps {
+                0 => words,
+                n => words.and("; ", words!("near {n} of them parts of the body pass through each other", n)),
+            };
             self.tell(Spot::Through, words!("body"), words);
         }
         let n = report.wrong_side_out(moved);
