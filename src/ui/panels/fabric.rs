@@ -61,8 +61,8 @@ fn fabric_list(ui: &mut Ui, told: &PanelContext<'_>, piece: Option<PieceId>, nam
     };
     let shown =
         own.map_or(RichText::new(tr("as all")).color(told.palette.weak), |own| RichText::new(tr(own)));
-    let combo = ComboBox::from_label(name).selected_text(shown).width(WIDTH);
-    combo.show_ui(ui, |ui| {
+    let combo = ComboBox::from_id_salt(("fabric", piece)).selected_text(shown).width(WIDTH);
+    let combo = combo.show_ui(ui, |ui| {
         let mut set = |fabric: Option<&str>| {
             asks.push(Ask::Do(Command::SetFabric { piece, fabric: fabric.map(str::to_owned) }));
         };
@@ -76,6 +76,9 @@ fn fabric_list(ui: &mut Ui, told: &PanelContext<'_>, piece: Option<PieceId>, nam
             }
         }
     });
+    // A label of the box's own would widen the panel by a long name.
+    let label = ui.add(egui::Label::new(name).truncate());
+    combo.response.labelled_by(label.id);
 }
 
 /// A button in the colour of the piece that opens its colour and print.

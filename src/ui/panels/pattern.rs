@@ -216,7 +216,10 @@ pub fn seams_ui(ui: &mut egui::Ui, told: &PanelContext<'_>, asks: &mut Asks) {
 fn row(ui: &mut egui::Ui, told: &PanelContext<'_>, item: Item, text: RichText, words: &str, asks: &mut Asks) {
     let is_selected = told.selection.has(item);
     let whole = text.text().to_owned();
-    let button = ui.add(Button::selectable(is_selected, text).truncate()).on_hover_text(whole);
+    let mut button = ui.add(Button::selectable(is_selected, text).truncate());
+    if button.intrinsic_size().is_some_and(|size| size.x > button.rect.width() + 1.0) {
+        button = button.on_hover_text(whole);
+    }
     button.widget_info(|| WidgetInfo::selected(Role::Button, true, is_selected, words));
     if button.clicked() {
         let more = held(ui).shift || held(ui).command;

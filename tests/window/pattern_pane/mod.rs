@@ -314,6 +314,25 @@ fn locked_pieces_stay_and_hidden_ones_are_not_there() {
 }
 
 #[test]
+fn rows_of_lists_are_told_in_full_where_they_are_cut_off() {
+    let long = "a piece whose name is far too long for the list of pieces ".repeat(3) + "of a garment";
+    let mut pattern = squares();
+    let corners = [[0.0, 0.3], [0.2, 0.3], [0.2, 0.5]].map(DVec2::from);
+    pattern.add_piece(Piece::polygon(&long, &corners));
+    let mut window = window_on(pattern);
+    let mut tips = |row: &str, whole: &str| {
+        window.get_by_label(row).scroll_to_me();
+        window.run_steps(40);
+        let before = window.query_all_by_label(whole).count();
+        window.get_by_label(row).hover();
+        window.run_steps(40);
+        window.query_all_by_label(whole).count() - before
+    };
+    assert_eq!(tips("Select B", "B"), 0, "it can be read in its row");
+    assert_eq!(tips(&format!("Select {long}"), &long), 1);
+}
+
+#[test]
 fn twins_follow_each_other_until_they_are_unlinked() {
     let mut window = window_on(squares());
     press(&mut window, Key::V);
