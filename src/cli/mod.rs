@@ -50,6 +50,7 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::Path;
 use std::process::ExitCode;
 
+use clap::error::ErrorKind;
 use clap::{CommandFactory, Parser};
 use tracing_subscriber::EnvFilter;
 
@@ -142,12 +143,10 @@ fn misspelt(error: &clap::Error) -> Option<String> {
     let first = std::env::args_os().nth(1)?;
     let word = first.to_str().filter(|word| !word.starts_with('-') && !Path::new(word).exists())?;
     let commands = Arguments::command();
-    let mut names = commands.get_subcommands().map(clap::Command::get_name);
-    if error.kind() != clap::error::ErrorKind::ArgumentConflict || names.any(|name| name == word) {
-        return None;
-    }
     let names: Vec<&str> = commands.get_subcommands().map(clap::Command::get_name).collect();
-    Some(format!("error: {word} is neither a command nor a file\n\ncommands: {}", names.join(", ")))
+    let is_misspelt = error.kind() == ErrorKind::ArgumentConflict && !names.contains(&word);
+    is_misspelt
+        .then(|| format!("error: {word} is neither a command nor a file\n\ncommands: {}", names.join(", ")))
 }
 
 fn panic_words(panic: &std::panic::PanicHookInfo) -> String {
