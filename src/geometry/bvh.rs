@@ -3,7 +3,7 @@
 use glam::DVec3;
 
 /// Most items in a leaf.
-const LEAF: usize = 4;
+pub const LEAF: usize = 4;
 /// Number of items above which the two halves of a tree are built in parallel.
 const MANY: usize = 1024;
 /// Rounding error allowed for in the test of a segment against a box, as a fraction of the largest coordinate.
@@ -96,10 +96,19 @@ pub struct Bvh {
 impl Bvh {
     /// Builds the tree over `boxes`: splits at the median along the longest side, down to leaves of a few items.
     pub fn new(boxes: &[Aabb]) -> Self {
+        Self::grown(boxes, |count| count / 2)
+    }
+
+    /// Like [`Bvh::new`], but splits only near medians, so that all leaves but the last hold [`LEAF`] items.
+    pub fn with_full_leaves(boxes: &[Aabb]) -> Self {
+        Self::grown(boxes, |count| (count / 2).next_multiple_of(LEAF))
+    }
+
+    fn grown(boxes: &[Aabb], split: fn(usize) -> usize) -> Self {
         let mut items: Vec<u32> = (0..boxes.len() as u32).collect();
         let mut nodes = Vec::new();
         if !boxes.is_empty() {
-            grow(boxes, &mut items, 0, &mut nodes);
+            grow(boxes, &mut items, 0, split, &mut nodes);
         }
         Self { nodes, items }
     }
@@ -199,8 +208,15 @@ impl Bvh {
     }
 }
 
-/// Appends to `nodes` the subtree over `items`, a slice of all items that starts at index `first`.
-fn grow(boxes: &[Aabb], items: &mut [u32], first: usize, nodes: &mut Vec<BvhNode>) {
+/// Appends to `nodes` the subtree over `items`, a slice of all items that starts at index `first`. `split` gives how many of a number
+/// of items go to the left.
+fn grow(
+    boxes: &[Aabb],
+    items: &mut [u32],
+    first: usize,
+    split: fn(usize) -> usize,
+    nodes: &mut Vec<BvhNode>,
+) {
     let bounds = items.iter().fold(Aabb::EMPTY, |b, &i| b.joined(&boxes[i as usize]));
     let node = nodes.len();
     nodes.push(BvhNode { bounds, right: 0, first: first as u32, count: items.len() as u32 });
@@ -212,13 +228,13 @@ fn grow(boxes: &[Aabb], items: &mut [u32], first: usize, nodes: &mut Vec<BvhNode
     }
     let axis = (bounds.upper - bounds.lower).max_position();
     let place = |i: u32| boxes[i as usize].centre()[axis];
-    let (middle, many) = (items.len() / 2, items.len() > MANY);
+    let (middle, many) = (split(items.len()), items.len() > MANY);
     items.select_nth_unstable_by(middle, |&i, &j| place(i).total_cmp(&place(j)).then(i.cmp(&j)));
     let (left, right) = items.split_at_mut(middle);
     if many {
         let half = |items: &mut [u32], first: usize| {
             let mut nodes = Vec::new();
-            grow(boxes, items, first, &mut nodes);
+            grow(boxes, items, first, split, &mut nodes);
             nodes
         };
         for half in <[_; 2]>::from(rayon::join(|| half(left, first), || half(right, first + middle))) {
@@ -228,9 +244,9 @@ fn grow(boxes: &[Aabb], items: &mut [u32], first: usize, nodes: &mut Vec<BvhNode
             nodes.extend(half.into_iter().map(placed));
         }
     } else {
-        grow(boxes, left, first, nodes);
+        grow(boxes, left, first, split, nodes);
         nodes[node].right = nodes.len() as u32;
-        grow(boxes, right, first + middle, nodes);
+        grow(boxes, right, first + middle, split, nodes);
     }
 }
 
@@ -251,10 +267,21 @@ mod tests {
     #[test]
     fn halves_grown_side_by_side_make_one_tree() {
         let boxes: Vec<Aabb> = points(5 * MANY).iter().map(|p| Aabb::around(&[*p])).collect();
-        let tree = Bvh::new(&boxes);
+        each_node_holds_what_is_below_it(&Bvh::new(&boxes), &boxes);
+        for count in [0, 1, 4, 5, 9, 1023, boxes.len()] {
+            let tree = Bvh::with_full_leaves(&boxes[..count]);
+            each_node_holds_what_is_below_it(&tree, &boxes[..count]);
+            let leaves: Vec<u32> =
+                tree.nodes.iter().filter(|node| node.is_leaf()).map(|leaf| leaf.count).collect();
+            assert!(leaves.iter().rev().skip(1).all(|&count| count as usize == LEAF), "of {count}");
+        }
+    }
+
+    fn each_node_holds_what_is_below_it(tree: &Bvh, boxes: &[Aabb]) {
         let mut items = tree.items.clone();
         items.sort_unstable();
         assert!(items.iter().enumerate().all(|(i, &item)| item == i as u32), "each item once");
+        assert_eq!(items.len(), boxes.len());
         for (at, node) in tree.nodes.iter().enumerate() {
             let below = &tree.items[node.first as usize..(node.first + node.count) as usize];
             let bounds = below.iter().fold(Aabb::EMPTY, |b, &i| b.joined(&boxes[i as usize]));

@@ -1,6 +1,8 @@
 //! A bounding volume hierarchy with four children per node, for nearest-item queries: it has half the levels of
 //! [`Bvh`], and the four boxes of a node are tested together (SIMD).
 
+use std::ops::Range;
+
 use glam::DVec3;
 
 use crate::geometry::bvh::{Aabb, Bvh};
@@ -166,42 +168,9 @@ impl Bvh4 {
         }
     }
 
-    /// The slot (index in [`Bvh4::items`]) of the item nearest to `p`, and its squared distance; None when no item is
-    /// within the square root of `limit`. `distance_squared` gives the squared distance of the item in a slot. Among
-    /// equally near items the lowest is taken.
-    pub fn nearest(
-        &self,
-        p: DVec3,
-        limit: f64,
-        mut distance_squared: impl FnMut(usize) -> f64,
-    ) -> Option<(usize, f64)> {
-        let mut best: Option<(usize, f64)> = None;
-        let mut least = limit;
-        wide(
-            #[inline(always)]
-            || {
-                self.descend(
-                    p,
-                    limit,
-                    #[inline(always)]
-                    |slot| {
-                        let d = distance_squared(slot);
-                        let wins = |(other, _): (usize, f64)| self.items[slot] < self.items[other];
-                        if d < least || (d == least && best.is_none_or(wins)) {
-                            least = d;
-                            best = Some((slot, d));
-                        }
-                        least
-                    },
-                )
-            },
-        );
-        best
-    }
-
-    /// Calls `look` with every slot whose leaf's box is within the square root of the limit of `p`, nearer boxes
-    /// first. The limit starts as `limit` and is replaced by each value that `look` returns.
-    pub fn visit(&self, p: DVec3, limit: f64, look: impl FnMut(usize) -> f64) {
+    /// Calls `look` with the slots (indices in [`Bvh4::items`]) of every leaf whose box is within the square root of the limit
+    /// of `p`, nearer boxes first. The limit starts as `limit` and is replaced by each value that `look` returns.
+    pub fn visit(&self, p: DVec3, limit: f64, look: impl FnMut(Range<usize>) -> f64) {
         wide(
             #[inline(always)]
             || self.descend(p, limit, look),
@@ -245,7 +214,7 @@ impl Bvh4 {
     }
 
     #[inline(always)]
-    fn descend(&self, p: DVec3, limit: f64, mut look: impl FnMut(usize) -> f64) {
+    fn descend(&self, p: DVec3, limit: f64, mut look: impl FnMut(Range<usize>) -> f64) {
         let mut least = limit;
         let mut open = [(0.0f64, 0u32); DEPTH];
         let mut waiting = usize::from(!self.nodes.is_empty());
@@ -256,10 +225,8 @@ impl Bvh4 {
                 continue;
             }
             if at & LEAF != 0 {
-                let (first, count) = ((at & !LEAF) / 8, at % 8);
-                for slot in first..first + count {
-                    least = look(slot as usize);
-                }
+                let (first, count) = (((at & !LEAF) / 8) as usize, (at % 8) as usize);
+                least = look(first..first + count);
                 continue;
             }
             let node = &self.nodes[at as usize];
@@ -291,6 +258,21 @@ mod tests {
         (0..count).map(|i| DVec3::new(at(i, 131), at(i, 377), at(i, 613))).collect()
     }
 
+    /// The item nearest to `p` within the square root of `limit`, and its squared distance.
+    fn nearest(tree: &Bvh4, p: DVec3, limit: f64, far: impl Fn(u32) -> f64) -> Option<(u32, f64)> {
+        let mut best = None;
+        let mut least = limit;
+        tree.visit(p, limit, |slots| {
+            for &item in &tree.items[slots] {
+                if far(item) < least {
+                    (best, least) = (Some((item, far(item))), far(item));
+                }
+            }
+            least
+        });
+        best
+    }
+
     #[test]
     fn the_nearest_is_what_brute_force_says() {
         for count in [0, 1, 3, 5, 17, 500] {
@@ -300,10 +282,9 @@ mod tests {
             for query in points.iter().map(|p| *p * 1.3 - 0.1) {
                 let far = |i: u32| (points[i as usize] - query).length_squared();
                 let exact = (0..count).min_by(|&i, &j| far(i).total_cmp(&far(j))).map(|i| (i, far(i)));
-                let found = tree.nearest(query, f64::INFINITY, |slot| far(tree.items[slot]));
-                assert_eq!(found.map(|(slot, d)| (tree.items[slot], d)), exact);
+                assert_eq!(nearest(&tree, query, f64::INFINITY, far), exact);
                 let nearer = exact.expect("one").1 * 0.99;
-                assert_eq!(tree.nearest(query, nearer, |s| far(tree.items[s])), None);
+                assert_eq!(nearest(&tree, query, nearer, far), None);
             }
         }
     }
@@ -320,7 +301,7 @@ mod tests {
             for query in before.iter().map(|p| *p * 1.4 - 0.2) {
                 let far = |i: u32| (after[i as usize] - query).length_squared();
                 let exact = (0..count).map(far).fold(f64::INFINITY, f64::min);
-                let found = tree.nearest(query, f64::INFINITY, |slot| far(tree.items[slot]));
+                let found = nearest(&tree, query, f64::INFINITY, far);
                 assert_eq!(found.map(|(_, d)| d), Some(exact));
             }
         }
@@ -333,9 +314,9 @@ mod tests {
         let tree = Bvh4::new(Bvh::new(&boxes));
         let (query, limit) = (DVec3::splat(0.4), 0.04);
         let mut found = Vec::new();
-        tree.visit(query, limit, |slot| {
-            let item = tree.items[slot];
-            found.extend(((points[item as usize] - query).length_squared() <= limit).then_some(item));
+        tree.visit(query, limit, |slots| {
+            let near = |item: &&u32| (points[**item as usize] - query).length_squared() <= limit;
+            found.extend(tree.items[slots].iter().filter(near).copied());
             limit
         });
         found.sort_unstable();
