@@ -1,5 +1,6 @@
 //! Runs a session inline until its cloth is at rest.
 
+use std::mem::ManuallyDrop;
 use std::path::Path;
 use std::sync::Arc;
 use std::time::Instant;
@@ -40,7 +41,9 @@ pub fn on_threads(
         .stack_size(STACK)
         .build()
         .map_err(|e| Failure::Limit(format!("{threads} threads cannot be started: {e}")))?;
-    pool.install(work)
+    // Kept to the end of the process: threads that end while it does free what libraries of graphics keep for each thread, as these
+    // themselves do then.
+    ManuallyDrop::new(pool).install(work)
 }
 
 /// A session on `project`, read from `path`, whose simulation runs inline. Fails if the project's cloth cannot be put on its
