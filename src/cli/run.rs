@@ -179,3 +179,38 @@ fn show_progress(simulation: &Simulation) {
         output::progress(&format!("{start}{phase} {:.0} %", simulation.progress() * 100.0));
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use std::cell::Cell;
+    use std::sync::atomic::{AtomicUsize, Ordering};
+    use std::time::Duration;
+
+    use super::*;
+
+    static ENDED: AtomicUsize = AtomicUsize::new(0);
+
+    struct Counted;
+
+    impl Drop for Counted {
+        fn drop(&mut self) {
+            ENDED.fetch_add(1, Ordering::SeqCst);
+        }
+    }
+
+    thread_local! {
+        static COUNTED: Cell<Option<Counted>> = const { Cell::new(None) };
+    }
+
+    /// Threads that ended while the process did, too, made it end with a fault.
+    #[test]
+    fn worker_threads_live_to_the_end_of_the_process() {
+        let work = || {
+            rayon::broadcast(|_| COUNTED.set(Some(Counted)));
+            Ok(())
+        };
+        assert!(on_threads(Some(2), work).is_ok());
+        std::thread::sleep(Duration::from_millis(200));
+        assert_eq!(ENDED.load(Ordering::SeqCst), 0);
+    }
+}

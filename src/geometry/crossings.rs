@@ -55,7 +55,7 @@ pub fn meetings(edge_positions: &[DVec3], edges: &[[u32; 2]], mesh: &TriMesh, tr
 /// ascending. `edges` are all edges of `mesh`, each with its lower vertex first, ascending; `tree` is over the
 /// triangles.
 pub fn self_crossings(mesh: &TriMesh, edges: &[[u32; 2]], tree: &Bvh) -> Vec<[u32; 2]> {
-    let boxes: Vec<Aabb> = (0..mesh.triangles.len()).map(|t| Aabb::around(&mesh.corners(t))).collect();
+    let boxes = mesh.boxes();
     let nodes = (0..tree.nodes.len() as u32).into_par_iter().with_min_len(LEAST_SHARE);
     let mut found: Vec<[u32; 2]> = nodes
         .flat_map_iter(|node| {

@@ -35,10 +35,14 @@ impl TriMesh {
             .sum()
     }
 
+    /// The bounding box of each triangle, metres.
+    pub fn boxes(&self) -> Vec<Aabb> {
+        (0..self.triangles.len()).map(|t| Aabb::around(&self.corners(t))).collect()
+    }
+
     /// Builds a bounding volume hierarchy over the triangles.
     pub fn tree(&self) -> Bvh {
-        let boxes: Vec<Aabb> = (0..self.triangles.len()).map(|t| Aabb::around(&self.corners(t))).collect();
-        Bvh::new(&boxes)
+        Bvh::new(&self.boxes())
     }
 
     /// Area-weighted unit normals per vertex; zero where a vertex has no area around it.
