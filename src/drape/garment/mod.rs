@@ -32,10 +32,10 @@ use crate::drape::garment::on_card::OnCard;
 use crate::drape::garment::tangles::{PARTING, Pulling};
 use crate::drape::garment::worked::{Worked, plates, weighted};
 use crate::drape::sheet::Sheet;
+use crate::drape::solver::advance::Advance;
 use crate::drape::solver::net::Spring;
-use crate::drape::solver::small_steps::{
-    Advance, GrabConstraint, SmallSteps, Surroundings, stable_rate, substeps,
-};
+use crate::drape::solver::small_steps::{GrabConstraint, SmallSteps, stable_rate, substeps};
+use crate::drape::solver::surroundings::Surroundings;
 use crate::drape::solver::ties::SewingSpring;
 use crate::drape::state::State;
 use crate::geometry::ids::PieceId;
@@ -423,6 +423,11 @@ impl DrapedGarment {
         Ok(())
     }
 
+    /// Whether a tick is partly done.
+    pub fn is_mid_tick(&self) -> bool {
+        self.begun.is_some() || self.pulling.is_some()
+    }
+
     /// Does part of the work of a tick. True when the tick is complete.
     pub fn go_on(&mut self, cloth: &mut ClothState) -> Result<bool, Undrapable> {
         if self.pulling.is_some() {
@@ -471,8 +476,9 @@ impl DrapedGarment {
         let asked = self.small.queries;
         let work = self.small.pairs() + MOST_WORK;
         while !begun.on_card && !begun.advance.is_done() && self.small.pairs() + moved < work {
-            self.small.go_on(&mut begun.advance, &around, &mut self.state);
-            moved += self.state.positions.len() as u64;
+            if self.small.go_on(&mut begun.advance, &around, &mut self.state) {
+                moved += self.state.positions.len() as u64;
+            }
         }
         self.counters.contact_queries += self.small.queries - asked;
         self.counters.contact_checks += moved;

@@ -12,7 +12,8 @@ use rayon::prelude::*;
 use crate::body::Surface;
 use crate::card::{Body, Card, CardFault, CardSlot, CardSteps, Cloth, Hand, Span};
 use crate::drape::garment::{Begun, DrapedGarment, Fixed};
-use crate::drape::solver::small_steps::{Advance, EASE, Surroundings};
+use crate::drape::solver::advance::Advance;
+use crate::drape::solver::surroundings::{EASE, Surroundings};
 use crate::geometry::parallel::LEAST_SEARCHES;
 
 /// Triangles from which on a card is faster than two processor cores: at 10,000 three times (H100), and more with more.

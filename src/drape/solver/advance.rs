@@ -15,12 +15,28 @@ pub struct Advance {
     pub(super) bent: Vec<DVec3>,
     /// Positions before the current small step.
     pub(super) before: Vec<DVec3>,
+    /// How far the current small step is done.
+    pub(super) at: At,
+}
+
+/// How far a small step is done. It is cut where features near each other are searched for: that takes by far the longest, and may be
+/// needed four times in a step.
+#[derive(Clone, Debug, Default)]
+pub(super) enum At {
+    /// At its beginning.
+    #[default]
+    Begin,
+    /// What is near where the cloth is about to go has been searched for.
+    Known,
+    /// The cloth has moved towards the positions `wanted` (metres) as far as it may without another search; there were `searches` before.
+    Truncated { wanted: Vec<DVec3>, searches: usize },
 }
 
 impl Advance {
     /// A span of `h` seconds in `count` small steps.
     pub fn new(h: f64, count: usize) -> Self {
-        Self { small: h / count as f64, count, done: 0, bent: Vec::new(), before: Vec::new() }
+        let (bent, before, at) = (Vec::new(), Vec::new(), At::Begin);
+        Self { small: h / count as f64, count, done: 0, bent, before, at }
     }
 
     /// Whether all small steps are done.

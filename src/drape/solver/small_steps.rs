@@ -4,11 +4,9 @@
 //! edge length: this law sets the step size h. Springs along edges stand for the membrane (Van Gelder 1998), so shear stiffness
 //! and Poisson's ratio are those of a spring net. Bending is an explicit force, evaluated as rarely as is stable.
 
-use std::ops::Range;
 use std::sync::Arc;
 
 use glam::DVec3;
-use rayon::prelude::*;
 
 use crate::body::Surface;
 use crate::contact::separation::Touch;
@@ -19,27 +17,20 @@ use crate::drape::forces::bending::Bending;
 use crate::drape::forces::folds::Folds;
 use crate::drape::forces::limits::StrainLimits;
 use crate::drape::sheet::Sheet;
-pub use crate::drape::solver::advance::Advance;
+use crate::drape::solver::advance::Advance;
+use crate::drape::solver::advance::At;
 use crate::drape::solver::net::{Net, Spring};
+use crate::drape::solver::off_body::{Colliding, Knowing};
+use crate::drape::solver::shares::{Creases, Plane, Share, shares, side_by_side};
 use crate::drape::solver::steps::Scene;
+use crate::drape::solver::surroundings::EASE;
+use crate::drape::solver::surroundings::Surroundings;
 use crate::drape::solver::ties::{Fastened, SewingSpring};
 use crate::drape::state::State;
 
 /// Safety factor on the stability limit of explicit bending. A little below 1, as the highest frequency is bounded from above by
 /// Gershgorin's theorem.
 const SAFE: f64 = 0.9;
-/// Speed at which cloth leaves a body when it is deeper than its own motion brought it, m/s; it gains no momentum by that. Chosen
-/// by trial; it bounds how fast cloth that begins inside the body comes out of it.
-pub const EASE: f64 = 0.3;
-/// Cosine of the angle between the normals of two successive nearest points below which they form a crease: cloth is then kept off
-/// both sides. That of 60°: so much the nearest skin turns at once only between two parts of a body, as in an armpit.
-const CREASE: f64 = 0.5;
-/// Distance from where the first side of a crease was seen within which cloth is still kept off it, in offsets. Chosen by trial; it
-/// bounds how far along the skin the other side of a crease is remembered.
-const CREASE_REACH: f64 = 4.0;
-/// Largest speed at which cloth is pushed off the side of a crease that is not nearest, m/s. Chosen by trial.
-const CREASE_SPEED: f64 = 1.5;
-
 /// Small steps ahead for which the broad phase looks, at the present speed. With more, separating planes between neighbouring
 /// parts of the cloth that fall side by side would hold them up.
 const AHEAD: f64 = 12.0;
@@ -101,41 +92,6 @@ pub struct GrabConstraint {
     pub stiffness: f64,
     /// Largest force, N.
     pub most: f64,
-}
-
-/// Forces on cloth besides those of its springs.
-#[derive(Clone, Copy, Debug)]
-pub struct Surroundings<'a> {
-    /// Bending energy of the cloth.
-    pub bending: &'a Bending,
-    /// Stiffness-proportional damping of bending, seconds.
-    pub bending_damping: f64,
-    /// Gravity, m/s².
-    pub gravity: DVec3,
-    /// Rate at which motion dies away, 1/s.
-    pub damping: f64,
-    /// The body, if any.
-    pub collider: Option<&'a Collider>,
-    /// Distance kept from the body, metres.
-    pub offset: f64,
-    /// Coulomb friction coefficient per vertex.
-    pub friction: &'a [f64],
-    /// Largest pressure that friction sees, Pa: friction should not hold cloth against strain control.
-    pub grip: f64,
-}
-
-/// Vertices in creases of a body, each with the half-space of the side that is not nearest.
-type Creases = Vec<(usize, Plane)>;
-
-/// Half-space that approximates the body near a vertex: the vertex is free where n·x ≥ height.
-#[derive(Clone, Copy, Debug, Default)]
-struct Plane {
-    normal: DVec3,
-    height: f64,
-    /// Position of the vertex at its last nearest-point query, metres.
-    place: DVec3,
-    /// Distance from `place` within which that query stays valid, metres.
-    good_for: f64,
 }
 
 /// Number of small steps that keep the extra strain below `strain` in a step of `h` seconds, for cloth that hangs `extent` metres
@@ -312,8 +268,37 @@ impl SmallSteps {
         }
     }
 
-    /// Makes one small step of `advance`.
-    pub fn go_on(&mut self, advance: &mut Advance, around: &Surroundings<'_>, state: &mut State) {
+    /// Makes one small step of `advance`, or the part of one up to the next search for features near each other. True when the step
+    /// is complete.
+    pub fn go_on(&mut self, advance: &mut Advance, around: &Surroundings<'_>, state: &mut State) -> bool {
+        let (small, part) = (advance.small, 1.0 / advance.count as f64);
+        match std::mem::take(&mut advance.at) {
+            At::Begin if self.look_ahead(around, state, (small, part)) => {
+                advance.at = At::Known;
+                return false;
+            }
+            At::Begin | At::Known => {
+                self.move_freely(advance, around, state);
+                advance.at = self.truncated(None, 0, &mut state.positions);
+            }
+            At::Truncated { wanted, searches } => {
+                if let Some(separation) = &mut self.separation {
+                    let speed = |v: usize| wanted[v].distance(advance.before[v]) / small;
+                    detect(separation, around, &state.positions, speed, (small, part));
+                }
+                state.positions.copy_from_slice(&wanted);
+                advance.at = self.truncated(Some(wanted), searches + 1, &mut state.positions);
+            }
+        }
+        let is_complete = matches!(advance.at, At::Begin);
+        if is_complete {
+            self.complete(advance, around, state);
+        }
+        is_complete
+    }
+
+    /// Moves the cloth by a small step as if nothing were in its way but the body near each vertex.
+    fn move_freely(&mut self, advance: &mut Advance, around: &Surroundings<'_>, state: &mut State) {
         let Advance { small, count, done: s, .. } = *advance;
         let part = 1.0 / count as f64;
         self.net.ready(small, &self.inverse_mass);
@@ -322,7 +307,6 @@ impl SmallSteps {
         let Advance { bent, before, .. } = advance;
         bent.resize(state.positions.len(), DVec3::ZERO);
         before.resize(state.positions.len(), DVec3::ZERO);
-        self.look_ahead(around, state, (small, part));
         let x = &mut state.positions;
         let kick = if s == 0 { self.lag + small / 2.0 } else { small };
         if s % every == 0 && self.bending_rate > 0.0 {
@@ -372,13 +356,17 @@ impl SmallSteps {
             // Sewn ends less than 2 mm apart are kept together even though the body pushes them apart.
             self.draw(x, 0.002, small);
         }
-        self.truncate(around, before, &mut state.positions, (small, part));
-        for (v, (now, then)) in state.velocities.iter_mut().zip(state.positions.iter().zip(&*before)) {
-            *v = (*now - *then) / small;
+    }
+
+    /// Takes the velocities from where the cloth came in a small step, and counts the step.
+    fn complete(&mut self, advance: &mut Advance, around: &Surroundings<'_>, state: &mut State) {
+        let places = state.positions.iter().zip(&advance.before);
+        for (v, (now, then)) in state.velocities.iter_mut().zip(places) {
+            *v = (*now - *then) / advance.small;
         }
         advance.done += 1;
         if advance.is_done() {
-            self.lag = small / 2.0;
+            self.lag = advance.small / 2.0;
             if around.collider.is_some_and(|c| !c.motion.is_empty()) {
                 self.forget_planes();
             }
@@ -416,36 +404,26 @@ impl SmallSteps {
         }
     }
 
-    /// Runs the broad phase again where some vertex is about to leave its search distance.
-    fn look_ahead(&mut self, around: &Surroundings<'_>, state: &State, (small, part): (f64, f64)) {
-        let Some(separation) = &mut self.separation else { return };
-        if !separation.holds(|v| state.positions[v] + state.velocities[v] * small) {
-            let speed = |v: usize| state.velocities[v].length();
-            detect(separation, around, &state.positions, speed, (small, part));
+    /// Looks again for features near each other where some vertex is about to leave its search distance. Returns whether it had to.
+    fn look_ahead(&mut self, around: &Surroundings<'_>, state: &State, (small, part): (f64, f64)) -> bool {
+        let Some(separation) = &mut self.separation else { return false };
+        if separation.holds(|v| state.positions[v] + state.velocities[v] * small) {
+            return false;
         }
+        let speed = |v: usize| state.velocities[v].length();
+        detect(separation, around, &state.positions, speed, (small, part));
+        true
     }
 
-    /// Truncates the motion from `before` to `x` in a small step so that no new intersection arises; `part` is the share of the
-    /// body's motion in this step.
-    fn truncate(
-        &mut self,
-        around: &Surroundings<'_>,
-        before: &[DVec3],
-        x: &mut [DVec3],
-        (small, part): (f64, f64),
-    ) {
-        let Some(separation) = &mut self.separation else { return };
-        let whole = x.to_vec();
-        // A vertex that leaves its search distance, as cloth that is struck does, continues after another search; after the third it
-        // stays where it is.
-        for _ in 0..3 {
-            if separation.truncate(x) == 0 {
-                return;
-            }
-            detect(separation, around, x, |v| whole[v].distance(before[v]) / small, (small, part));
-            x.copy_from_slice(&whole);
+    /// Truncates the motion to `x`, which is `wanted` if given, so that no new intersection arises. A vertex that leaves its search
+    /// distance, as cloth that is struck does, continues after another search; after the third it stays where it is.
+    fn truncated(&mut self, wanted: Option<Vec<DVec3>>, searches: usize, x: &mut [DVec3]) -> At {
+        let Some(separation) = &mut self.separation else { return At::Begin };
+        let wanted = wanted.unwrap_or_else(|| x.to_vec());
+        if separation.truncate(x) == 0 || searches == 3 {
+            return At::Begin;
         }
-        separation.truncate(x);
+        At::Truncated { wanted, searches }
     }
 
     /// Whether the cloth at `x` is known to cross neither itself nor the body; looks where that is not known.
@@ -526,155 +504,4 @@ fn detect(
     let more = of_body + around.gravity.length() * span * span / 2.0;
     let reach = |v: usize| (speed(v) * span + more).clamp(REACH.0, REACH.1);
     separation.detect(x, reach, |v| around.collider.is_some_and(|c| c.surface.contains(x[v])));
-}
-
-/// One part of the cloth for parallel work.
-struct Share<'a> {
-    /// Index of the part's first vertex.
-    first: usize,
-    x: &'a mut [DVec3],
-    before: &'a mut [DVec3],
-    velocities: &'a mut [DVec3],
-    planes: &'a mut [Plane],
-    creases: &'a mut Creases,
-}
-
-/// The arrays divided into the parts of `net`.
-fn shares<'a>(
-    net: &Net,
-    mut x: &'a mut [DVec3],
-    mut before: &'a mut [DVec3],
-    mut velocities: &'a mut [DVec3],
-    (mut planes, creases): (&'a mut [Plane], &'a mut [Creases]),
-) -> Vec<Share<'a>> {
-    fn taken<'a, T>(from: &mut &'a mut [T], count: usize) -> &'a mut [T] {
-        let (head, tail) = std::mem::take(from).split_at_mut(count);
-        *from = tail;
-        head
-    }
-    let share = |(part, creases): (Range<usize>, &'a mut Creases)| Share {
-        first: part.start,
-        x: taken(&mut x, part.len()),
-        before: taken(&mut before, part.len()),
-        velocities: taken(&mut velocities, part.len()),
-        planes: taken(&mut planes, part.len()),
-        creases,
-    };
-    net.parts().zip(creases).map(share).collect()
-}
-
-/// Runs `work` on each share, in parallel where there is more than one.
-fn side_by_side<T: Send>(
-    shares: &mut [Share<'_>],
-    work: impl Fn(usize, &mut Share<'_>) -> T + Sync,
-) -> Vec<T> {
-    match shares {
-        [one] => vec![work(0, one)],
-        many => many.par_iter_mut().enumerate().map(|(p, share)| work(p, share)).collect(),
-    }
-}
-
-/// A small step against a body.
-struct Colliding<'a> {
-    around: &'a Surroundings<'a>,
-    collider: &'a Collider,
-    /// Share of the body's motion that is still to come after this small step.
-    left: f64,
-    /// Share of the body's motion in this small step.
-    part: f64,
-    small: f64,
-}
-
-/// Read-only data of the vertices that collisions with the body need.
-struct Knowing<'a> {
-    inverse_mass: &'a [f64],
-    lift: &'a [f64],
-    spread: &'a [f64],
-    pulled: &'a [f64],
-    eases: bool,
-}
-
-impl Knowing<'_> {
-    /// Projects the vertices of `share` off the body, with friction. Returns the numbers of nearest-point queries made and saved.
-    fn collide(&self, scene: &Colliding<'_>, share: &mut Share<'_>) -> (u64, u64) {
-        let Colliding { around, collider, left, part, small } = *scene;
-        let (mut queries, mut skipped) = (0, 0);
-        for (k, x) in share.x.iter_mut().enumerate() {
-            let i = share.first + k;
-            if self.inverse_mass[i] == 0.0 {
-                continue;
-            }
-            let (plane, before) = (&mut share.planes[k], &mut share.before[k]);
-            if x.distance_squared(plane.place) > plane.good_for * plane.good_for {
-                queries += 1;
-                let seen = *plane;
-                *plane = look(collider, *x, *before, around.offset + self.lift[i], left);
-                let both = seen.normal != DVec3::ZERO && plane.normal != DVec3::ZERO;
-                if both && seen.normal.dot(plane.normal) < CREASE {
-                    share.creases.retain(|(known, _)| *known != i);
-                    share.creases.push((i, seen));
-                }
-            } else if plane.normal == DVec3::ZERO {
-                skipped += 1;
-                continue;
-            }
-            let mut depth = plane.height - plane.normal.dot(*x);
-            if self.eases {
-                let old = plane.height - plane.normal.dot(*before);
-                if old > 0.0 {
-                    let eased = old.min(EASE * small);
-                    depth -= old - eased;
-                    *before += plane.normal * eased;
-                }
-            }
-            if depth > 0.0 {
-                *x += plane.normal * depth;
-                let carried = collider.carried_near(*before) * part;
-                let slip = *x - *before - carried;
-                let slip = slip - plane.normal * slip.dot(plane.normal);
-                let length = slip.length();
-                // Pressure of elastic is known, and not limited.
-                let pulled = self.pulled.get(i).copied().unwrap_or(0.0);
-                let hold =
-                    around.friction[i] * depth.min(around.grip * self.spread[i] * small * small + pulled);
-                *x -= if length <= hold { slip } else { slip * (hold / length) };
-            }
-        }
-        let reach = CREASE_REACH * around.offset;
-        share
-            .creases
-            .retain(|(i, plane)| share.x[i - share.first].distance_squared(plane.place) < reach * reach);
-        for (i, plane) in share.creases.iter() {
-            let k = i - share.first;
-            let depth = plane.height - plane.normal.dot(share.x[k]);
-            // The projection adds no velocity: between the two sides of a crease the cloth would tremble.
-            let way = plane.normal * depth.clamp(0.0, CREASE_SPEED * small);
-            share.x[k] += way;
-            share.before[k] += way;
-        }
-        (queries, skipped)
-    }
-}
-
-/// Half-space of the body near `x`; `left` is the share of the body's motion that is still to come.
-fn look(collider: &Collider, x: DVec3, before: DVec3, offset: f64, left: f64) -> Plane {
-    let back = collider.carried_near(x) * left;
-    let near = collider.surface.nearest(x + back);
-    let clear = near.distance - offset - collider.farthest() * left;
-    if clear > offset {
-        return Plane { normal: DVec3::ZERO, height: 0.0, place: x, good_for: clear };
-    }
-    let mut normal = near.normal;
-    let mut point = near.point - back;
-    let way = x - before;
-    if way.length() > near.distance.abs()
-        && let Some(hit) = collider.surface.ray(before + back, way)
-        && hit.distance < way.length()
-        && hit.normal.dot(way) < 0.0
-    {
-        (normal, point) = (hit.normal, hit.point - back);
-    }
-    // Two offsets: over a sphere of radius R the tangent plane is then off by (2 offset)²/2R, twice the offset squared over R.
-    let good_for = if collider.farthest() > 0.0 { 0.0 } else { 2.0 * offset.max(1e-4) };
-    Plane { normal, height: normal.dot(point) + offset, place: x, good_for }
 }

@@ -42,6 +42,11 @@ impl Draping {
         Self { source, worn: None, left: None, held: false, ends: None, walk: None }
     }
 
+    /// Whether a tick is partly done.
+    pub(super) fn is_mid_tick(&self) -> bool {
+        self.worn.as_ref().is_some_and(DrapedGarment::is_mid_tick)
+    }
+
     fn runs(&self) -> bool {
         self.left != Some(0) && self.worn.as_ref().is_none_or(|worn| !worn.progress().at_rest)
     }
@@ -137,10 +142,9 @@ impl World {
         if self.draping.as_ref().is_some_and(|draping| draping.walk.is_some()) {
             return self.walk();
         }
-        if !self.is_draped()
-            && let Err(Undrapable(words)) = self.begin_draping()
-        {
-            return self.fail_draping(words);
+        // To begin takes about as long as a part of the first tick, the longest.
+        if !self.is_draped() {
+            return self.begin_draping().unwrap_or_else(|Undrapable(words)| self.fail_draping(words));
         }
         let Some(draping) = self.draping.as_mut().map(Arc::make_mut) else { return };
         let Some(worn) = &mut draping.worn else { return };
