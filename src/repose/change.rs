@@ -52,6 +52,8 @@ pub struct Change {
     conformed: Vec<DVec3>,
     /// Whether the cloth goes directly, not through intermediate poses.
     at_once: bool,
+    /// How often some global steps were added because the cloth had come directly, but not well.
+    added: usize,
     stage: Stage,
 }
 
@@ -130,6 +132,7 @@ impl Change {
             carried: Vec::new(),
             conformed: Vec::new(),
             at_once: false,
+            added: 0,
             stage,
         })
     }
@@ -262,8 +265,19 @@ impl Change {
         // Folds do not go away by strain limiting.
         let by_steps = self.at_once && self.care.most_substeps > 0;
         let folded = by_steps && reposer.folds.count(&self.state) > reposer.folds.most;
-        self.stage = if folded { Stage::SetOut } else { Stage::Spread(None) };
+        self.stage = if folded { self.not_well(reposer) } else { Stage::Spread(None) };
         1
+    }
+
+    /// What is done with cloth that went directly and did not turn out well: some more global steps, as often as repairs may be made,
+    /// then the way through intermediate poses, which takes several times as long.
+    fn not_well(&mut self, reposer: &Reposer) -> Stage {
+        if self.added >= self.care.mends {
+            return Stage::SetOut;
+        }
+        self.added += 1;
+        self.outcome.mends = 0;
+        Stage::control(reposer, FEW_STEPS)
     }
 
     /// Strain limiting for strain that remains in a few places. Skipped where the cloth is too tight; undone where it did not
@@ -309,7 +323,7 @@ impl Change {
         self.outcome.excess_p99 = reposer.lengths.p99(&self.state);
         let may_be_better = self.at_once && self.care.most_substeps > 0;
         if may_be_better && !reposer.is_well(&self.state, self.care, self.outcome) {
-            self.stage = Stage::SetOut;
+            self.stage = self.not_well(reposer);
         } else if self.care.mends == 0 {
             reposer.remember(&self.state, &self.carried);
         } else {
