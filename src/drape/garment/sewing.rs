@@ -173,6 +173,11 @@ impl Sewing {
         (f64::from(self.ticks) / f64::from(self.closing + PACE.patience)).min(1.0)
     }
 
+    /// Whether a tick is partly done.
+    pub fn is_mid_tick(&self) -> bool {
+        self.is_begun
+    }
+
     /// Work counters of collision since they were last taken; resets them.
     pub fn take_separation(&mut self) -> separation::Counters {
         self.worn.take_separation()

@@ -448,6 +448,14 @@ impl World {
         }
     }
 
+    /// Whether a tick of sewing or draping is partly done: where much lies near each other it takes several ticks of the simulation.
+    pub(in crate::sim) fn is_mid_tick(&self) -> bool {
+        match &self.sewing {
+            Some(placed) => placed.is_mid_tick(),
+            None => self.draping.as_ref().is_some_and(|draping| draping.is_mid_tick()),
+        }
+    }
+
     /// Phase of dressing; None without a garment.
     pub fn phase(&self) -> Option<Phase> {
         self.garment.as_ref()?;

@@ -37,6 +37,16 @@ impl Outfit {
         layers.filter(|&layer| inner.is_none_or(|inner| layer > inner)).min()
     }
 
+    /// Whether a seam joins `layer` to one below it.
+    fn is_sewn_on(&self, layer: u8) -> bool {
+        let layer_of = |corner: u32| self.garment.layer(self.garment.corners[corner as usize].piece);
+        let is_across = |pair: &[u32; 2]| {
+            let [a, b] = pair.map(layer_of);
+            a.max(b) == layer && a != b
+        };
+        self.garment.seam_pairs.iter().any(|(_, pairs)| pairs.iter().any(is_across))
+    }
+
     /// Begins to sew `layer` over the laid part of `worn`.
     fn begun(
         &self,
@@ -66,6 +76,11 @@ impl Placed {
     /// Progress, 0..=1.
     pub fn progress(&self) -> f64 {
         self.sewing.progress()
+    }
+
+    /// Whether a tick is partly done.
+    pub(super) fn is_mid_tick(&self) -> bool {
+        self.sewing.is_mid_tick()
     }
 }
 
@@ -143,11 +158,15 @@ impl World {
         self.garment = Some(Arc::clone(&outfit.garment));
         self.cloth = Arc::new(ClothState::clone(&sewn.cloth));
         (self.was_sewn, self.seams_unseen) = (true, true);
+        self.outer = outfit.next(Some(placed.layer)).map(|layer| (Arc::clone(outfit), layer));
+        // Half a garment would slide off: what is sewn on to it comes before its weight does.
+        if self.outer.as_ref().is_some_and(|(outfit, layer)| outfit.is_sewn_on(*layer)) {
+            return self.sew_next_layer();
+        }
         self.part_active();
         self.drape_for(None, Arc::clone(&outfit.fabrics));
         self.begin_moving(&sewn.velocities);
         self.set_pins(&Arc::clone(&self.places));
-        self.outer = outfit.next(Some(placed.layer)).map(|layer| (Arc::clone(outfit), layer));
     }
 
     /// Once sewn cloth rests, reports seams that are too short for this body. Earlier, skin or folds may hold them open.
