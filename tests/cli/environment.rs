@@ -1,6 +1,5 @@
 //! The same work wherever the program runs: threads, stacks, languages, folders that are not there, others beside it.
 
-use std::path::Path;
 use std::process::{Command, Stdio};
 
 use crate::program::{Ended, Place, ended};
@@ -101,7 +100,7 @@ fn a_folder_that_cannot_be_written_to_is_no_hindrance_to_work_elsewhere() {
     let out = elsewhere.path("out");
     let mut command = place.command("dress --out");
     let project = place.path("ball.toile");
-    let done = command.arg(&out).arg(&project).current_dir(Path::new("/proc/self")).output();
+    let done = command.arg(&out).arg(&project).current_dir("/proc/self").output();
     assert_eq!(ended(done.expect("started")).code, 0);
     assert!(out.join("report.json").exists());
 }

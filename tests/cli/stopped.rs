@@ -29,23 +29,23 @@ const STARTING: f64 = 0.3;
 /// What is stopped, as it is typed, "IN" for the folder of inputs, and whether its files take their places one by one, not a
 /// folder at a time.
 const DRESSING: &[(&str, bool)] = &[
-    ("dress sample:skirt --edge-length 0.02 --drape --out out", false),
-    ("dress sample:tshirt --edge-length 0.012 --suggest-marks --out new/out --save shirt.toile", true),
-    ("dress --list IN/list.txt --out out --edge-length 0.015", false),
+    ("dress sample:skirt --edge-length 0.03 --drape --out out", false),
+    ("dress sample:tshirt --edge-length 0.016 --suggest-marks --out new/out --save shirt.toile", true),
+    ("dress --list IN/list.txt --out out --edge-length 0.02", false),
     ("replay IN/dress.jsonl --out out", false),
 ];
 
 const REPOSING: &[(&str, bool)] = &[
-    ("repose IN/dressed.toile --pose walking --pose sitting --out out", false),
+    ("repose IN/dressed.toile --pose walking --pose sitting --size 400x250 --out out", false),
     ("repose IN/dressed.toile --sequence --body IN/frames --textures 0 --unit m --out out", true),
     ("simulate IN/scene.json --out out", false),
 ];
 
 const READING: &[(&str, bool)] = &[
-    ("fit IN/dressed.toile --map all --out out", false),
+    ("fit IN/dressed.toile --map all --size 400x250 --out out", false),
     ("fit IN/dressed.toile --page fit.html", false),
-    ("compare IN/dressed.toile IN/dressed.toile --map all --out out", false),
-    ("render IN/dressed.toile -o picture.png --size 1600x1600", false),
+    ("compare IN/dressed.toile IN/dressed.toile --map all --size 400x250 --out out", false),
+    ("render IN/dressed.toile -o picture.png --size 1200x1200", false),
     ("render IN/dressed.toile -o turn.png --turntable 4", true),
 ];
 
@@ -62,7 +62,7 @@ const FILES: &[(&str, bool)] = &[
     ("completions zsh", false),
     ("man --out pages", true),
     ("bench accuracy --runs 1", false),
-    ("bench drape --runs 1 --triangles 300", false),
+    ("bench drape --runs 1 --triangles 200", false),
 ];
 
 /// Files of a size take their places together, a size after the other.
