@@ -40,7 +40,7 @@ fn the_button_drapes_and_space_pauses() {
     let (before, steps) = (positions(&window), app(&window).session().step_labels().count());
     window.get_by_label("Drape").click();
     window.run_steps(2);
-    let moves = |app: &App| app.session().snapshot().drape.is_some_and(|d| d.runs && !d.waits);
+    let moves = |app: &App| app.session().snapshot().drape.is_some_and(|d| d.ticks > 0 && !d.waits);
     wait(&mut window, "the drape", moves);
     assert!(window.query_by_label_contains("out of balance").is_some());
     key(&mut window, Modifiers::NONE, Key::Space);
