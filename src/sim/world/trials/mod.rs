@@ -591,6 +591,23 @@ mod tests {
         );
     }
 
+    /// Sewn over each other, more layers take longer than any of several starts may.
+    #[test]
+    fn an_only_start_has_as_long_as_it_needs() {
+        let begun = World::dressed(source(), ball().into(), cotton(), StartChoice::default());
+        let mut trials = Arc::unwrap_or_clone(begun.expect("begun").trials.take().expect("begun"));
+        let layers = u32::from(trials.source.pattern.outermost()) + 1;
+        assert!(layers == 1 && !trials.left.is_empty());
+        trials.ticks = MOST_TICKS - 1;
+        assert!(!trials.is_out_of_time());
+        trials.ticks = MOST_TICKS;
+        assert!(trials.is_out_of_time(), "another is left");
+        trials.left.clear();
+        assert!(!trials.is_out_of_time(), "no other is left, and nothing was reached");
+        trials.best = Some((Arc::default(), 0));
+        assert!(trials.is_out_of_time(), "there is another result");
+    }
+
     #[test]
     fn only_draped_cloth_is_taken_where_that_is_asked_for() {
         let (mut world, mut trials) = faulty();
