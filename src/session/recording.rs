@@ -74,17 +74,17 @@ impl<'de> Deserialize<'de> for Hex {
 /// Identifier of the kind of machine. On one kind, a recording always gives the same bits; between kinds they may differ in the
 /// last place, because matrices are factored with the widest instructions available.
 pub fn machine() -> String {
-    let mut words = vec![std::env::consts::ARCH, std::env::consts::OS];
     #[cfg(target_arch = "x86_64")]
-    {
-        let wide = [
-            ("avx2", std::arch::is_x86_feature_detected!("avx2")),
-            ("fma", std::arch::is_x86_feature_detected!("fma")),
-            ("avx512f", std::arch::is_x86_feature_detected!("avx512f")),
-        ];
-        words.extend(wide.iter().filter(|(_, has)| *has).map(|(name, _)| name));
-    }
-    words.join("-")
+    let wide = [
+        ("avx2", std::arch::is_x86_feature_detected!("avx2")),
+        ("fma", std::arch::is_x86_feature_detected!("fma")),
+        ("avx512f", std::arch::is_x86_feature_detected!("avx512f")),
+    ];
+    #[cfg(not(target_arch = "x86_64"))]
+    let wide: [(&str, bool); 0] = [];
+    let had = wide.iter().filter(|(_, has)| *has).map(|(name, _)| *name);
+    let words = [std::env::consts::ARCH, std::env::consts::OS];
+    words.into_iter().chain(had).collect::<Vec<_>>().join("-")
 }
 
 /// Writes the recording of a session as it happens.
