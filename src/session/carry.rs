@@ -8,6 +8,7 @@ use std::sync::Arc;
 
 use glam::DVec3;
 
+use crate::body::Surface;
 use crate::body::warp::Warp;
 use crate::geometry::ids::MarkId;
 use crate::geometry::words::{Words, words};
@@ -46,6 +47,13 @@ pub fn tie(marks: &mut Arc<Marks>, body: &Body) {
 
 fn tied(p: DVec3, body: &Body) -> Tie {
     let surface = &body.surface;
+    let (triangle, weights) = place(p, surface);
+    let landmark = body.landmarks().and_then(|l| l.near(p, NEAR * surface.scale())).map(str::to_owned);
+    Tie { triangle, weights, landmark }
+}
+
+/// The triangle of `surface` that is nearest to `p`, and the barycentric coordinates of the point there.
+fn place(p: DVec3, surface: &Surface) -> (u32, DVec3) {
     let near = surface.nearest(p);
     let [a, b, c] = surface.mesh.corners(near.triangle as usize);
     let normal = (b - a).cross(c - a);
@@ -53,11 +61,22 @@ fn tied(p: DVec3, body: &Body) -> Tie {
         |u: DVec3, v: DVec3| (u - near.point).cross(v - near.point).dot(normal) / normal.length_squared();
     let weights = DVec3::new(share(b, c), share(c, a), share(a, b));
     let flat = normal.length_squared() == 0.0 || !weights.is_finite();
-    Tie {
-        triangle: near.triangle,
-        weights: if flat { DVec3::splat(1.0 / 3.0) } else { weights },
-        landmark: body.landmarks().and_then(|l| l.near(p, NEAR * surface.scale())).map(str::to_owned),
-    }
+    (near.triangle, if flat { DVec3::splat(1.0 / 3.0) } else { weights })
+}
+
+/// `marks`, whose strokes on the body are not tied, moved with its skin; None if `to` has other triangles than `from`.
+pub fn moved(marks: &Marks, from: &Surface, to: &Surface) -> Option<Marks> {
+    let is_same = from.mesh.triangles == to.mesh.triangles;
+    let to_new = |p: DVec3| {
+        let (triangle, weights) = place(p, from);
+        let corners = to.mesh.corners(triangle as usize);
+        (0..3).map(|k| corners[k] * weights[k]).sum::<DVec3>()
+    };
+    let body = marks.body.iter().map(|mark| {
+        let points = mark.points.iter().map(|&p| to_new(p)).collect();
+        crate::wrap::BodyMark { points, ..mark.clone() }
+    });
+    is_same.then(|| Marks { body: body.collect(), ..marks.clone() })
 }
 
 /// `marks` transferred from the body `from` to the body `to`, called `name`, and tied to it, with a problem for each stroke that

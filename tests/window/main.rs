@@ -35,6 +35,7 @@ mod marker;
 mod mouse;
 mod pattern_pane;
 mod pictures;
+mod proposed;
 mod safety;
 mod shell;
 mod standing;
@@ -339,51 +340,6 @@ fn the_laser_marks_every_piece_that_lies_there() {
     }
     assert!(marks.iter().all(|m| m.side == ClothSide::Front), "outer sides, however they lie");
     assert_eq!(app(&window).session().step_labels().count(), 1);
-}
-
-/// The square, said to hang before the ball.
-fn placed() -> Project {
-    let mut project = project();
-    let pattern = Arc::make_mut(&mut project.document.pattern);
-    for piece in pattern.pieces.values_mut() {
-        let placement = SpacePose::flat(DVec3::new(0.0, 0.0, 0.4), DQuat::IDENTITY);
-        let piece = Arc::make_mut(piece);
-        piece.placement = Some(placement);
-    }
-    project
-}
-
-#[test]
-fn proposed_marks_are_seen_and_accepted_or_dismissed() {
-    let mut window = window_on(placed(), None);
-    let suggest = |window: &mut Window| {
-        window.get_by_label("Edit").click();
-        window.run_steps(3);
-        window.get_by_label("Suggest marks").click();
-        window.run_steps(3);
-    };
-    suggest(&mut window);
-    for side in ["cloth", "body"] {
-        assert!(window.query_by_label(&format!("Proposed mark 1 on the {side}")).is_some(), "{side}");
-    }
-    assert!(!app(&window).session().is_modified(), "ghosts are not in the document");
-    key(&mut window, Modifiers::NONE, Key::Escape);
-    assert!(window.query_by_label("Accept").is_none());
-    assert_eq!(counts(&window), [0, 0]);
-    for by_key in [true, false] {
-        suggest(&mut window);
-        if by_key {
-            key(&mut window, Modifiers::NONE, Key::Enter);
-        } else {
-            window.get_by_label("Accept").click();
-            window.run_steps(3);
-        }
-        let [cloth, body] = counts(&window);
-        assert!(cloth > 0 && cloth == body, "{cloth} on the cloth, {body} on the body");
-        assert!(window.query_by_label_contains("Proposed").is_none());
-        assert_eq!(app(&window).session().step_labels().collect::<Vec<_>>(), ["replace all marks"]);
-        key(&mut window, Modifiers::COMMAND, Key::Z);
-    }
 }
 
 /// Labels of the two strokes of the first pair in the list.

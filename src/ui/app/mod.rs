@@ -324,7 +324,7 @@ impl App {
         let document = self.shown().document().clone();
         let snapshot = Arc::clone(self.shown().snapshot());
         self.take_start(&document, &snapshot);
-        self.ghosts = self.ghosts.take().filter(|g| g.fit(&document, self.shown().surface()));
+        self.ghosts = self.ghosts.take().and_then(|ghosts| ghosts.now(&document, self.shown().surface()));
         self.carry_selection(&document);
         self.take_comparison();
         self.take_environment(&ctx);

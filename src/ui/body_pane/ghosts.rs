@@ -4,6 +4,7 @@ use std::sync::Arc;
 
 use crate::body::Surface;
 use crate::pattern::Pattern;
+use crate::session::carry::moved;
 use crate::session::{Document, Session};
 use crate::wrap::{Marks, suggested};
 
@@ -32,12 +33,21 @@ impl Ghosts {
         Some(Self { marks, pattern: Arc::clone(&session.document().pattern), surface })
     }
 
-    /// Whether pieces and body are still those that the marks were proposed for. Moving pieces on the table does not matter.
-    pub fn fit(&self, document: &Document, surface: Option<&Arc<Surface>>) -> bool {
+    /// These on the body as it is now: moved with its skin where only its pose or size has changed. None if the pieces or the body
+    /// are others than those that the marks were proposed for. Moving pieces on the table does not matter.
+    pub fn now(mut self, document: &Document, surface: Option<&Arc<Surface>>) -> Option<Self> {
         let outlines =
             |p: &Pattern| p.pieces.iter().map(|(id, piece)| (*id, piece.outline.clone())).collect::<Vec<_>>();
-        surface.is_some_and(|s| Arc::ptr_eq(s, &self.surface))
-            && (Arc::ptr_eq(&self.pattern, &document.pattern)
-                || outlines(&self.pattern) == outlines(&document.pattern))
+        let surface = surface?;
+        if !Arc::ptr_eq(&self.pattern, &document.pattern)
+            && outlines(&self.pattern) != outlines(&document.pattern)
+        {
+            return None;
+        }
+        if !Arc::ptr_eq(surface, &self.surface) {
+            self.marks = Arc::new(moved(&self.marks, &self.surface, surface)?);
+            self.surface = Arc::clone(surface);
+        }
+        Some(self)
     }
 }
