@@ -137,7 +137,9 @@ impl<'a> Told<'a> {
             Ok(Done { verdict, resumed, note, .. }) => {
                 let failure = verdict.failure();
                 let before = if resumed { " (done before)" } else { "" };
-                let words = format!("{verdict}{before}");
+                // The folder's name, where it is not the garment's.
+                let folder = if verdict.name == job.name { String::new() } else { format!("{}: ", job.name) };
+                let words = format!("{folder}{verdict}{before}");
                 Self { job, verdict: Some(verdict), resumed, failure, times, words, note }
             }
             Err(failure) => {

@@ -19,7 +19,8 @@ pub const PICTURE_NAME: &str = "view.png";
 /// The part of a report that tells whether the project is dressed.
 #[derive(Debug, Serialize, Deserialize)]
 pub struct Verdict {
-    name: String,
+    /// Name of the garment.
+    pub name: String,
     /// Whether nothing moves any more.
     #[serde(rename(deserialize = "at_rest"))]
     settled: bool,
@@ -150,7 +151,11 @@ impl Verdict {
 
     /// The figures of a summary.
     fn figures(&self) -> String {
-        let tight = self.tight.as_ref().map(|tight| format!(" (tightest: {tight})")).unwrap_or_default();
+        let told = |tight: &Tight| {
+            let what = if tight.strain < 0.0 { "most pressed together" } else { "tightest" };
+            format!(" ({what}: {tight})")
+        };
+        let tight = self.tight.as_ref().map(told).unwrap_or_default();
         let millimetres = self.mark_error.max * 1000.0;
         let start = match &self.start {
             Some(TakenStart { taken: Start::Placement, .. }) => ", sewn from placement".to_owned(),

@@ -149,11 +149,14 @@ impl Document {
     }
 }
 
+/// Edge lengths that the triangles of cloth may be given, metres.
+pub const EDGE_LENGTHS: std::ops::RangeInclusive<f64> = 0.002..=0.2;
+
 /// Settings of mesh size, relaxation and draping.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default)]
 pub struct Settings {
-    /// Target edge length of the cloth's triangles, metres, 0.002..=0.2.
+    /// Target edge length of the cloth's triangles, metres; one of [`EDGE_LENGTHS`].
     pub edge_length: f64,
     /// Settings of relaxation.
     pub relax: RelaxSettings,

@@ -25,7 +25,11 @@ fn several_projects_get_a_folder_and_a_line_each() {
     let done = place.ends(3, "dress ball.toile broken.toile sub/ball.toile --out out");
     let words: Vec<&str> = done.out.lines().collect();
     assert_eq!(words.len(), 3, "{done:#?}");
-    assert!(words[0].starts_with("ball: dressed") && words[2].starts_with("ball: dressed"), "{words:#?}");
+    assert!(words[0].starts_with("ball: dressed"), "{words:#?}");
+    assert!(
+        words[2].starts_with("ball-2: ball: dressed"),
+        "the folder, too, where that is called otherwise: {words:#?}"
+    );
     assert!(words[1].starts_with("broken.toile: failed: broken.toile: "), "{words:#?}");
     assert_eq!(place.names("out"), ["ball", "ball-2"]);
     assert_eq!(place.names("out/ball-2"), ["body.obj", "garment.obj", "report.json"]);

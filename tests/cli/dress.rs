@@ -71,7 +71,10 @@ fn what_cannot_be_dressed_is_told_and_writes_nothing() {
     assert!(place.names("out").is_empty());
     place.write("file", "");
     place.ends_with_words(6, "dress ball.toile --out file/out", "file");
-    place.ends_with_words(3, "dress ball.toile --out out --edge-length 7", "mesh size");
+    for length in ["7", "-1", "wide"] {
+        let typed = format!("dress ball.toile --out out --edge-length {length}");
+        place.ends_with_words(2, &typed, "0.002 to 0.2 metres");
+    }
 }
 
 #[test]

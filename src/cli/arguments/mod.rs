@@ -29,6 +29,7 @@ use crate::fit::MapKind;
 use crate::io::pdf::Paper;
 use crate::io::scale::DrawingUnit;
 use crate::render::View;
+use crate::session::document::EDGE_LENGTHS;
 use crate::sim::Start;
 
 /// Dress a body in cloth: draw and sew flat pieces, paint marks, press Wrap.
@@ -145,7 +146,7 @@ pub struct InputOptions {
     #[arg(long)]
     pub suggest_marks: bool,
     /// Length of the triangles' edges, metres
-    #[arg(long, value_name = "METRES")]
+    #[arg(long, value_name = "METRES", value_parser = edge_length, allow_negative_numbers = true)]
     pub edge_length: Option<f64>,
 }
 
@@ -398,6 +399,7 @@ fn map_names() -> String {
 /// of each piece), NAME-triangles.csv and NAME.png. With --page it writes the fit report: views, girths with their ease, seams,
 /// strain and maps on one self-contained page.
 #[derive(Debug, Args)]
+#[command(override_usage = "toile fit PROJECT --map NAME --out DIR\n       toile fit PROJECT --page FILE")]
 pub struct Fit {
     /// Dressed project, as saved by dress --save or repose --save
     pub project: PathBuf,
@@ -425,6 +427,12 @@ pub struct Fit {
 /// A value of `--map`: one map, the four strain maps (`strain`), or all of them (`all`).
 #[derive(Clone, Debug)]
 pub struct Maps(pub Vec<MapKind>);
+
+fn edge_length(text: &str) -> Result<f64, String> {
+    let (least, most) = (EDGE_LENGTHS.start(), EDGE_LENGTHS.end());
+    let length = text.parse().ok().filter(|length| EDGE_LENGTHS.contains(length));
+    length.ok_or_else(|| format!("edges of triangles are {least} to {most} metres long"))
+}
 
 fn maps(text: &str) -> Result<Maps, String> {
     match text {
@@ -473,7 +481,7 @@ pub struct Sizes {
     #[arg(long, value_name = "UNIT")]
     pub scale: Option<DrawingUnit>,
     /// Length of the triangles' edges, metres
-    #[arg(long, value_name = "METRES")]
+    #[arg(long, value_name = "METRES", value_parser = edge_length, allow_negative_numbers = true)]
     pub edge_length: Option<f64>,
     /// The map in sizes.png
     #[arg(long, value_name = "NAME", default_value = "ease")]

@@ -11,7 +11,7 @@ use crate::pattern::fineness::MESH_SIZES;
 use crate::pattern::{Button, Edge, EdgeShape, InternalLine, Pattern, Piece, PlanePose, SpacePose};
 use crate::session::body_choice::BodyChoice;
 use crate::session::command::Rejection;
-use crate::session::document::Settings;
+use crate::session::document::{EDGE_LENGTHS, Settings};
 use crate::sim::ClothPlace;
 use crate::wrap::Marks;
 
@@ -318,7 +318,7 @@ pub fn cloth_place(pattern: &Pattern, place: ClothPlace) -> Result<(), Rejection
 pub fn settings(settings: &Settings) -> Result<(), Rejection> {
     let Settings { edge_length, relax, strain } = settings;
     within(words!("the strain that cloth may have"), *strain, 0.001, 0.2)?;
-    within(words!("the mesh size"), *edge_length, 0.002, 0.2)?;
+    within(words!("the mesh size"), *edge_length, *EDGE_LENGTHS.start(), *EDGE_LENGTHS.end())?;
     within(words!("stretch"), relax.stretch, 0.0, 1.0)?;
     within(words!("flattening"), relax.flatten, 0.0, 1.0)?;
     within(words!("gravity"), relax.gravity, 0.0, 0.1)?;
