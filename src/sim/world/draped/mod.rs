@@ -224,9 +224,8 @@ impl World {
             let draping = Arc::make_mut(draping);
             (draping.held, draping.ends) = (true, None);
             draping.worn.iter_mut().for_each(|worn| worn.take(vertex));
-            let mut dragged = vec![0.0; self.cloth.positions.len()];
-            dragged[vertex as usize] = 1.0;
-            self.dragged = Some(Arc::new(dragged));
+            // All of the cloth may follow.
+            self.dragged = Some(Arc::new(vec![1.0; self.cloth.positions.len()]));
         }
         true
     }
