@@ -126,8 +126,13 @@ fn row_ui(
     let format = |color| egui::TextFormat { font_id: font.clone(), color, ..Default::default() };
     text.append(&format!("{} › ", action.row().place()), 0.0, format(palette.weak));
     text.append(&now.text(action), 0.0, format(ink));
+    // The name is always whole; what is beside it ends where there is no more room.
+    let (name, padding) = (ui.painter().layout_job(text.clone()), ui.spacing().button_padding.x);
+    let room = ui.available_width() - name.size().x - 2.0 * padding - ui.spacing().icon_spacing;
+    let mut beside = egui::text::LayoutJob::single_section(right, format(palette.weak));
+    beside.wrap = egui::text::TextWrapping::truncate_at_width(room.max(0.0));
     let button = egui::Button::selectable(chosen, text)
-        .shortcut_text(egui::RichText::new(right).color(palette.weak))
+        .shortcut_text(ui.painter().layout_job(beside))
         .truncate()
         .min_size(egui::vec2(ui.available_width(), 0.0));
     let response = ui.add(button);

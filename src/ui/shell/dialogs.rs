@@ -244,7 +244,10 @@ fn not_saved_ui(ctx: &egui::Context, path: &Path, words: &str) -> Answer {
         buttons.push((tr("Replace it anyway"), tip, Answer::Replace(path.to_owned())));
     }
     buttons.push((tr("Cancel"), "", Answer::Cancel));
-    let kept = say!("{path} is as it was; your work is kept here.", path = path.display());
+    let kept = match path.exists() {
+        true => say!("{path} is as it was; your work is kept here.", path = path.display()),
+        false => tr("Your work is kept here.").to_owned(),
+    };
     question_ui(ctx, "not saved", tr("Not saved"), &format!("{words}.\n{kept}"), buttons)
 }
 
@@ -297,6 +300,13 @@ fn path_ui(ctx: &egui::Context, purpose: Purpose, text: &mut String) -> Answer {
         let entered = field.lost_focus() && ui.input(|i| i.key_pressed(egui::Key::Enter));
         if !ui.memory(|m| m.focused().is_some()) {
             field.request_focus();
+            // What is typed then replaces the name that is suggested.
+            let mut state = TextEdit::load_state(ctx, field.id).unwrap_or_default();
+            let end = egui::text::CCursor::new(text.chars().count());
+            state
+                .cursor
+                .set_char_range(Some(egui::text::CCursorRange::two(egui::text::CCursor::default(), end)));
+            state.store(ctx, field.id);
         }
         let picked = if purpose.writes() { None } else { files_ui(ui, purpose, text) };
         ui.add_space(8.0);
