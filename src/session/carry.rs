@@ -66,17 +66,15 @@ fn place(p: DVec3, surface: &Surface) -> (u32, DVec3) {
 
 /// `marks`, whose strokes on the body are not tied, moved with its skin; None if `to` has other triangles than `from`.
 pub fn moved(marks: &Marks, from: &Surface, to: &Surface) -> Option<Marks> {
-    let is_same = from.mesh.triangles == to.mesh.triangles;
-    let to_new = |p: DVec3| {
-        let (triangle, weights) = place(p, from);
-        let corners = to.mesh.corners(triangle as usize);
-        (0..3).map(|k| corners[k] * weights[k]).sum::<DVec3>()
-    };
-    let body = marks.body.iter().map(|mark| {
-        let points = mark.points.iter().map(|&p| to_new(p)).collect();
-        crate::wrap::BodyMark { points, ..mark.clone() }
-    });
-    is_same.then(|| Marks { body: body.collect(), ..marks.clone() })
+    if from.mesh.triangles != to.mesh.triangles {
+        return None;
+    }
+    let mut marks = marks.clone();
+    for p in marks.body.iter_mut().flat_map(|mark| &mut mark.points) {
+        let (triangle, weights) = place(*p, from);
+        *p = at(to, triangle, weights)?;
+    }
+    Some(marks)
 }
 
 /// `marks` transferred from the body `from` to the body `to`, called `name`, and tied to it, with a problem for each stroke that
@@ -153,9 +151,10 @@ impl<'a> Way<'a> {
 
     fn point(&self, p: DVec3, tie: Option<&Tie>) -> Option<DVec3> {
         let (Self::Triangles { from, to } | Self::Landmarks { from, to, .. }) = self;
-        let held = tie.filter(|t| at(from, t).is_some_and(|q| q.distance(p) < MOVED * from.surface.scale()));
+        let held =
+            tie.filter(|t| of_tie(from, t).is_some_and(|q| q.distance(p) < MOVED * from.surface.scale()));
         let tie = held.cloned().unwrap_or_else(|| tied(p, from));
-        let Self::Landmarks { warp, .. } = self else { return at(to, &tie) };
+        let Self::Landmarks { warp, .. } = self else { return of_tie(to, &tie) };
         let near = to.surface.nearest(warp.image(p));
         let [before, now] = [(from, tie.triangle), (to, near.triangle)]
             .map(|(body, triangle)| body.surface.face_normals[triangle as usize]);
@@ -165,7 +164,12 @@ impl<'a> Way<'a> {
 }
 
 /// The point that a tie stands for. None when it is of another body.
-fn at(body: &Body, tie: &Tie) -> Option<DVec3> {
-    let corners = body.surface.mesh.triangles.get(tie.triangle as usize)?;
-    Some((0..3).map(|k| body.surface.mesh.positions[corners[k] as usize] * tie.weights[k]).sum())
+fn of_tie(body: &Body, tie: &Tie) -> Option<DVec3> {
+    at(&body.surface, tie.triangle, tie.weights)
+}
+
+/// The point with these barycentric coordinates in a triangle. None where the surface has no such triangle.
+fn at(surface: &Surface, triangle: u32, weights: DVec3) -> Option<DVec3> {
+    let corners = surface.mesh.triangles.get(triangle as usize)?;
+    Some((0..3).map(|k| surface.mesh.positions[corners[k] as usize] * weights[k]).sum())
 }

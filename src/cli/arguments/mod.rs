@@ -150,6 +150,12 @@ pub struct InputOptions {
     pub edge_length: Option<f64>,
 }
 
+fn edge_length(text: &str) -> Result<f64, String> {
+    let (least, most) = (EDGE_LENGTHS.start(), EDGE_LENGTHS.end());
+    let length = text.parse().ok().filter(|length| EDGE_LENGTHS.contains(length));
+    length.ok_or_else(|| format!("edges of triangles are {least} to {most} metres long"))
+}
+
 /// Wraps by the marks or, without any, by the best start (suggested marks, or sewn from where the pieces are placed; see
 /// --start); relaxes to rest, and writes garment.obj, body.obj, report.json and view.png
 ///
@@ -427,12 +433,6 @@ pub struct Fit {
 /// A value of `--map`: one map, the four strain maps (`strain`), or all of them (`all`).
 #[derive(Clone, Debug)]
 pub struct Maps(pub Vec<MapKind>);
-
-fn edge_length(text: &str) -> Result<f64, String> {
-    let (least, most) = (EDGE_LENGTHS.start(), EDGE_LENGTHS.end());
-    let length = text.parse().ok().filter(|length| EDGE_LENGTHS.contains(length));
-    length.ok_or_else(|| format!("edges of triangles are {least} to {most} metres long"))
-}
 
 fn maps(text: &str) -> Result<Maps, String> {
     match text {
