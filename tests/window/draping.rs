@@ -85,6 +85,8 @@ fn cloth_is_grabbed_while_it_drapes() {
     press_along(&mut window, &line(area, Vec2::new(30.0, 0.0)), PointerButton::Primary);
     wait(&mut window, "the grab", |app| app.session().snapshot().dragged.is_some());
     assert!(drape(&window).is_some_and(|d| d.runs), "physics goes on");
+    let shares = app(&window).session().snapshot().dragged.clone().expect("grabbed");
+    assert!(shares.iter().all(|share| *share == 1.0), "all may follow: nothing is shown as out of reach");
     key(&mut window, Modifiers::NONE, Key::Escape);
     wait(&mut window, "letting go", |app| app.session().snapshot().dragged.is_none());
 }

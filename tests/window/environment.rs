@@ -73,7 +73,7 @@ fn choose(window: &mut Window, path: &Path) -> bool {
 }
 
 /// Runs frames until the window says `words`, for at most 20 seconds.
-fn wait_for_words(window: &mut Window, words: &str) {
+pub(super) fn wait_for_words(window: &mut Window, words: &str) {
     let start = Instant::now();
     while window.query_by_label_contains(words).is_none() {
         assert!(start.elapsed() < Duration::from_secs(20), "{words:?} is not said");

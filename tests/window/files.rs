@@ -25,6 +25,29 @@ pub fn read_by(window: &mut Window, menu: &str, entry: &str, path: &Path) -> boo
 }
 
 #[test]
+fn a_path_that_is_typed_replaces_the_suggested_name() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let mut window = super::hand::dressed_window();
+    for (name, is_written) in [("nowhere/mine.toile", false), ("mine.toile", true)] {
+        super::hand::choose(&mut window, "File", "Save as…");
+        if super::hand::has_file_dialogs() {
+            return;
+        }
+        let path = folder.path().join(name);
+        window.event(Event::Text(path.display().to_string()));
+        window.run_steps(2);
+        act(&mut window, "Write");
+        if is_written {
+            wait(&mut window, "the project to be written", |_| path.is_file());
+        } else {
+            super::environment::wait_for_words(&mut window, "Your work is kept here.");
+            assert!(window.query_by_label_contains("is as it was").is_none(), "it never was");
+            act(&mut window, "Cancel");
+        }
+    }
+}
+
+#[test]
 fn enter_takes_the_path_and_a_file_that_is_there_is_asked_about() {
     let folder = tempfile::tempdir().expect("a folder");
     let path = folder.path().join("mine.toile");

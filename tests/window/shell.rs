@@ -383,6 +383,17 @@ fn losing_the_pointer_or_the_window_ends_every_drag_in_the_body_pane() {
     }
 }
 
+/// Long reasons made the rows wider than the palette, and shortened the names.
+#[test]
+fn a_reason_gives_way_to_the_name_of_its_command() {
+    let mut window = window();
+    edit(&mut window, |app, _| app.follow_language("de".to_owned()));
+    key(&mut window, Modifiers::NONE, Key::F3);
+    type_into(&mut window, "Schleife");
+    let [field, row] = ["Befehl suchen", "Schleife…"].map(|label| window.get_by_label_contains(label).rect());
+    assert!(row.left() >= field.left() - 8.0 && row.right() <= field.right() + 8.0, "{row} beside {field}");
+}
+
 #[test]
 fn the_palette_opens_over_the_start_page_and_escape_closes_it_alone() {
     let folder = tempfile::tempdir().expect("a folder");

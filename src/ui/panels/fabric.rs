@@ -76,8 +76,8 @@ fn fabric_list(ui: &mut Ui, told: &PanelContext<'_>, piece: Option<PieceId>, nam
             }
         }
     });
-    // A label of the box's own would widen the panel by a long name.
-    let label = ui.add(egui::Label::new(name).truncate());
+    // A label of the box's own would widen the panel by a long name; cut short, left and right would be the same.
+    let label = ui.add(egui::Label::new(name).wrap());
     combo.response.labelled_by(label.id);
 }
 
