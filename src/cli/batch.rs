@@ -71,7 +71,7 @@ pub fn batch(arguments: &Dress) -> Result<(), Failure> {
         output::make_folder(&arguments.out)?;
         lines = Some(Lines::open(&arguments.out, arguments.shard)?);
     }
-    let (start, mut worst, mut not_dressed) = (Instant::now(), None::<Failure>, 0);
+    let (start, mut worst, mut not_dressed, mut failed) = (Instant::now(), None::<Failure>, 0, 0);
     for (i, job) in jobs.iter().enumerate() {
         if arguments.progress || output::is_watched() {
             let (name, so_far) = (&job.name, start.elapsed().as_secs_f64());
@@ -96,7 +96,11 @@ pub fn batch(arguments: &Dress) -> Result<(), Failure> {
         if let Some(note) = &told.note {
             output::complain(note);
         }
-        not_dressed += usize::from(matches!(told.failure, Some(Failure::Faults { .. })));
+        match &told.failure {
+            None => {}
+            Some(Failure::Faults { .. }) => not_dressed += 1,
+            Some(_) => failed += 1,
+        }
         let code = |failure: &Option<Failure>| failure.as_ref().map_or(0, Failure::exit_code);
         if code(&told.failure) > code(&worst) {
             worst = told.failure;
@@ -105,7 +109,13 @@ pub fn batch(arguments: &Dress) -> Result<(), Failure> {
     match worst {
         None => Ok(()),
         Some(Failure::Faults { .. }) => Err(Failure::not_dressed(not_dressed, jobs.len())),
-        Some(failure) => Err(failure),
+        Some(failure) => {
+            let all = jobs.len();
+            output::complain(&format!(
+                "{failed} of {all} failed, {not_dressed} are not dressed; the first of the worst:"
+            ));
+            Err(failure)
+        }
     }
 }
 

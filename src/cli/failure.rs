@@ -3,6 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use crate::io::words::readable;
+use crate::session::whole_file;
 
 /// Exit code after a panic.
 pub const PANIC: u8 = 70;
@@ -29,7 +30,7 @@ pub enum Failure {
     #[error("{0}")]
     Graphics(String),
     /// A file could not be read or written.
-    #[error("{}: {error}", shown(path))]
+    #[error("{}: {}", shown(path), whole_file::words(error))]
     File { path: PathBuf, error: std::io::Error },
     /// Internal error of the simulation.
     #[error("{0}")]

@@ -4,10 +4,11 @@ use std::path::Path;
 
 use serde::Serialize;
 
-use crate::body::mannequin::mannequin;
+use crate::body::mannequin::{Mannequin, Measurements, mannequin};
 use crate::body::readings::{Reading, readings};
 use crate::cli::arguments::Measure;
 use crate::cli::failure::Failure;
+use crate::cli::files::MANNEQUIN;
 use crate::cli::input::{self, Content};
 use crate::cli::{files, output};
 use crate::session::body::{readings_of, surface_of};
@@ -20,7 +21,12 @@ struct Told {
 
 /// Prints the measurements of a body, in centimetres, or as JSON in metres.
 pub fn measure(arguments: &Measure) -> Result<(), Failure> {
+    let of_mannequin = |figure: &Mannequin| readings(&figure.mesh, Some(&figure.landmarks));
     let (path, found) = match (&arguments.file, input::sized(&arguments.sized)?) {
+        (Some(path), None) if path == Path::new(MANNEQUIN) => {
+            let figure = mannequin(&Measurements::default()).map_err(|e| Failure::Internal(e.to_string()))?;
+            (&**path, of_mannequin(&figure))
+        }
         (Some(path), None) => (&**path, of_file(path, arguments)?),
         (Some(path), Some(_)) => {
             let words = "a file and --sizes: the size is measured on the mannequin, leave the file out";
@@ -28,7 +34,7 @@ pub fn measure(arguments: &Measure) -> Result<(), Failure> {
         }
         (None, Some((table, measurements))) => {
             let figure = mannequin(&measurements).map_err(|error| Failure::input(table, error))?;
-            (table, readings(&figure.mesh, Some(&figure.landmarks)))
+            (table, of_mannequin(&figure))
         }
         (None, None) => return Err(Failure::Usage("name a body, or a size".to_owned())),
     };

@@ -43,11 +43,21 @@ pub fn told(kind: ErrorKind, words: Words) -> Error {
     Error::new(kind, Told(words))
 }
 
-/// The error of a file in words; errors of the system are in its own.
+/// The error of a file in words; rare errors of the system are in its own.
 pub fn words(error: &Error) -> Words {
-    match error.get_ref().and_then(|inner| inner.downcast_ref()) {
-        Some(Told(words)) => words.clone(),
-        None => Words::plain(error.to_string()),
+    if let Some(Told(words)) = error.get_ref().and_then(|inner| inner.downcast_ref()) {
+        return words.clone();
+    }
+    match error.kind() {
+        ErrorKind::NotFound => words!("there is no such file or folder"),
+        ErrorKind::PermissionDenied => words!("you have no permission to do this here"),
+        ErrorKind::AlreadyExists => words!("something else has this name"),
+        ErrorKind::IsADirectory => words!("this is a folder, not a file"),
+        ErrorKind::NotADirectory => words!("a part of this path is a file, not a folder"),
+        ErrorKind::StorageFull | ErrorKind::QuotaExceeded => words!("there is no room left on the disk"),
+        ErrorKind::ReadOnlyFilesystem => words!("this disk can only be read"),
+        ErrorKind::InvalidFilename => words!("this name is too long, or the system does not take it"),
+        _ => Words::plain(error.to_string()),
     }
 }
 
@@ -293,6 +303,21 @@ mod tests {
             assert!(fs::symlink_metadata(at(link)).expect("a link").is_symlink());
         }
         assert_eq!(fs::read_dir(folder.path()).expect("a folder").count(), 3, "nothing else is left");
+    }
+
+    #[test]
+    fn errors_of_the_system_are_told_in_words() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let at = |name: &str| folder.path().join(name);
+        fs::write(at("file"), b"x").expect("written");
+        let told = |tried: Result<Vec<u8>>| words(&tried.expect_err("an error")).to_string();
+        assert_eq!(told(fs::read(at("none"))), "there is no such file or folder");
+        assert_eq!(told(fs::read(folder.path())), "this is a folder, not a file");
+        assert_eq!(told(fs::read(at("file/x"))), "a part of this path is a file, not a folder");
+        let long = "n".repeat(999);
+        assert!(told(fs::read(at(&long))).starts_with("this name is too long"));
+        let made = fs::create_dir(at("file")).map(|()| Vec::new());
+        assert_eq!(told(made), "something else has this name");
     }
 
     #[test]

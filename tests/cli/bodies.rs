@@ -29,6 +29,7 @@ fn place() -> Place {
 fn a_body_is_measured() {
     let place = Place::new();
     let table = place.ends(0, "measure sample:tshirt").out;
+    assert_eq!(table, place.ends(0, "measure mannequin").out, "which the sample is made for");
     assert!(table.lines().any(|line| line.starts_with("waist") && line.contains("70.6 cm")), "{table}");
     let told: serde_json::Value =
         serde_json::from_str(&place.ends(0, "measure sample:tshirt --json").out).expect("JSON");

@@ -619,7 +619,7 @@ pub struct Check {
 /// Reads girths, heights, widths, depths, shoulders and arms off a standing human body
 #[derive(Debug, Args)]
 pub struct Measure {
-    /// Body (OBJ, glTF), or a project with its body; sample:NAME for the mannequin
+    /// Body (OBJ, glTF), a project with its body, or mannequin
     #[arg(required_unless_present = "sizes")]
     pub file: Option<PathBuf>,
     #[command(flatten)]
