@@ -89,10 +89,8 @@ pub struct Progress {
     pub residual: f64,
     /// Speed of the fastest vertex, m/s.
     pub speed: f64,
-    /// Whether the cloth rests, or is left as it is.
+    /// Whether the cloth rests.
     pub at_rest: bool,
-    /// Whether it is left as it is though it still moves.
-    pub restless: bool,
 }
 
 /// Parts that do not change during a simulation.
@@ -245,7 +243,7 @@ impl DrapedGarment {
             substeps: count,
             floats: sewn.is_some(),
             rubs: None,
-            progress: Progress { ticks: 0, residual: 1.0, speed: 0.0, at_rest: false, restless: false },
+            progress: Progress { ticks: 0, residual: 1.0, speed: 0.0, at_rest: false },
             pace: 1.0,
             quiet: 0,
             crossings: 0,
@@ -415,7 +413,7 @@ impl DrapedGarment {
             self.state = pulling.least;
         }
         (self.quiet, self.pace, self.parting, self.in_vain) = (0, 1.0, (usize::MAX, 0), 0);
-        self.progress = Progress { ticks: 0, at_rest: false, restless: false, ..self.progress };
+        self.progress = Progress { ticks: 0, at_rest: false, ..self.progress };
     }
 
     /// Runs a tick: [`TICK`] seconds, or less while time is slowed down. Deep self-intersections are then pulled out, while time
@@ -459,13 +457,11 @@ impl DrapedGarment {
             }
         };
         let grip = if self.floats && self.rubs.is_none() { 0.0 } else { GRIP };
-        let calms = calming(self.progress.ticks, self.pace);
         let mut around = Surroundings {
             bending: &fixed.bending,
             bending_damping: BENDING_DAMPING,
-            settles: calms > 0.0 && !self.floats,
             gravity: if self.floats { DVec3::ZERO } else { GRAVITY },
-            damping: fixed.damping + calms + gentle(self.age),
+            damping: fixed.damping + calming(self.progress.ticks, self.pace) + gentle(self.age),
             collider: Some(&collider),
             offset: fixed.offset,
             friction: &fixed.friction,

@@ -12,7 +12,7 @@ struct ComingToRest {
     residual: f64,
     /// Consecutive ticks in which both must hold before the cloth counts as resting.
     quiet_ticks: u32,
-    /// Ticks after which it is left as it is in any case.
+    /// Ticks after which it counts as resting in any case.
     most_ticks: u64,
     /// Time is slowed down once the unbalanced force is below this share of the weight: the cloth has come down. One pass in a small
     /// step leaves edges only as stiff as mass over the step squared, far softer than woven cloth, so cloth that hangs from a tight
@@ -46,16 +46,14 @@ impl DrapedGarment {
 
     /// Decides at the end of a tick whether the cloth rests.
     pub(super) fn conclude(&mut self) {
-        let (ticks, quiet, moves) = (self.progress.ticks, self.is_quiet(), self.quiet == 0);
+        let (ticks, quiet) = (self.progress.ticks, self.is_quiet());
         let sound = self.lacking == 0 && (self.crossings == 0 || self.is_tangled());
         if quiet && !sound {
             self.quiet = 0;
         }
         if self.small.hand.is_none() {
             let slowed = self.slow_down();
-            let is_left = ticks >= COMING_TO_REST.most_ticks;
-            self.progress.at_rest = (quiet && sound && !slowed) || is_left;
-            self.progress.restless = is_left && moves;
+            self.progress.at_rest = (quiet && sound && !slowed) || ticks >= COMING_TO_REST.most_ticks;
         }
     }
 
@@ -87,8 +85,7 @@ impl DrapedGarment {
         self.age += TICK;
         let weight = mass.iter().sum::<f64>() * GRAVITY.length();
         let (residual, speed) = (unbalanced / weight, fastest);
-        self.progress =
-            Progress { ticks: self.progress.ticks + 1, residual, speed, at_rest: false, restless: false };
+        self.progress = Progress { ticks: self.progress.ticks + 1, residual, speed, at_rest: false };
         let still = speed * span < COMING_TO_REST.way && residual < COMING_TO_REST.residual;
         self.quiet = if still { self.quiet + 1 } else { 0 };
     }

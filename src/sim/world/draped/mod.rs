@@ -257,7 +257,6 @@ impl World {
             on: draping.left.is_none(),
             waits: progress.is_none() && draping.walk.is_none(),
             runs: draping.runs(),
-            restless: progress.is_some_and(|p| p.restless),
             residual: progress.map_or(1.0, |p| p.residual),
             speed: progress.map_or(0.0, |p| p.speed),
             ticks: progress.map_or(0, |p| p.ticks),

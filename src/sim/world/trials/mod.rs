@@ -451,8 +451,7 @@ impl World {
         let (garment, cloth) =
             split.as_ref().map_or((garment, &self.cloth), |(garment, cloth)| (garment, cloth));
         let hung_at = self.hung_at.as_deref().filter(|_| self.moved == Moved::Draped);
-        let unbalanced = self.drape_state().and_then(|drape| drape.unbalanced());
-        let lies = Lies { moved: self.moved, sewn: self.was_sewn, hung_at, unbalanced };
+        let lies = Lies { moved: self.moved, sewn: self.was_sewn, hung_at };
         let index = BodyIndex::new(body);
         let report = measure(&source.pattern, garment, cloth, &index);
         Some(Judged {
