@@ -110,9 +110,8 @@ pub fn batch(arguments: &Dress) -> Result<(), Failure> {
         None => Ok(()),
         Some(Failure::Faults { .. }) => Err(Failure::not_dressed(not_dressed, jobs.len())),
         Some(failure) => {
-            let all = jobs.len();
             output::complain(&format!(
-                "{failed} of {all} failed, {not_dressed} are not dressed; the first of the worst:"
+                "failed: {failed}, not dressed: {not_dressed}; the first of the worst:"
             ));
             Err(failure)
         }
