@@ -4,7 +4,7 @@ use std::path::Path;
 
 use serde::Serialize;
 
-use crate::body::mannequin::{Mannequin, Measurements, mannequin};
+use crate::body::mannequin::{self, Mannequin};
 use crate::body::readings::{Reading, readings};
 use crate::cli::arguments::Measure;
 use crate::cli::failure::Failure;
@@ -23,17 +23,14 @@ struct Told {
 pub fn measure(arguments: &Measure) -> Result<(), Failure> {
     let of_mannequin = |figure: &Mannequin| readings(&figure.mesh, Some(&figure.landmarks));
     let (path, found) = match (&arguments.file, input::sized(&arguments.sized)?) {
-        (Some(path), None) if path == Path::new(MANNEQUIN) => {
-            let figure = mannequin(&Measurements::default()).map_err(|e| Failure::Internal(e.to_string()))?;
-            (&**path, of_mannequin(&figure))
-        }
+        (Some(path), None) if path == Path::new(MANNEQUIN) => (&**path, of_mannequin(&mannequin::default())),
         (Some(path), None) => (&**path, of_file(path, arguments)?),
         (Some(path), Some(_)) => {
             let words = "a file and --sizes: the size is measured on the mannequin, leave the file out";
             return Err(Failure::Usage(format!("{}: {words}", path.display())));
         }
         (None, Some((table, measurements))) => {
-            let figure = mannequin(&measurements).map_err(|error| Failure::input(table, error))?;
+            let figure = mannequin::mannequin(&measurements).map_err(|error| Failure::input(table, error))?;
             (table, of_mannequin(&figure))
         }
         (None, None) => return Err(Failure::Usage("name a body, or a size".to_owned())),

@@ -128,7 +128,7 @@ fn row_ui(
     text.append(&now.text(action), 0.0, format(ink));
     // The name is always whole; what is beside it ends where there is no more room.
     let (name, padding) = (ui.painter().layout_job(text.clone()), ui.spacing().button_padding.x);
-    // Between them is a space that grows, with a gap on either side.
+    // Between them is a space that grows, with a gap on either side; one point less, since widths are rounded.
     let room = ui.available_width() - name.size().x - 2.0 * (padding + ui.spacing().icon_spacing);
     let mut beside = egui::text::LayoutJob::single_section(right, format(palette.weak));
     beside.wrap = egui::text::TextWrapping::truncate_at_width((room - 1.0).max(0.0));
