@@ -46,6 +46,7 @@ mod techpack;
 mod texture_options;
 mod verdict;
 
+use std::ffi::OsStr;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::Path;
 use std::process::ExitCode;
@@ -71,6 +72,12 @@ fn run() -> u8 {
         Ok(arguments) => arguments,
         Err(error) => return show_usage(&error),
     };
+    if let Some(words) =
+        arguments.project.as_deref().filter(|path| is_word(path)).and_then(|p| misspelt(p.as_os_str()))
+    {
+        output::complain(&words);
+        return Failure::Usage(words).exit_code();
+    }
     match carry_out(arguments) {
         Ok(()) => 0,
         Err(failure) => {
@@ -130,7 +137,8 @@ fn listen_to_traces() {
 
 /// Prints help, version or usage errors. Help and version go to standard output and are no failure.
 fn show_usage(error: &clap::Error) -> u8 {
-    match misspelt(error) {
+    let first = std::env::args_os().nth(1);
+    match first.filter(|_| error.kind() == ErrorKind::ArgumentConflict).and_then(|first| misspelt(&first)) {
         Some(words) => output::complain(&words),
         // If the output is closed there is nothing left to do.
         None => error.print().unwrap_or_default(),
@@ -138,14 +146,17 @@ fn show_usage(error: &clap::Error) -> u8 {
     u8::try_from(error.exit_code()).unwrap_or(2)
 }
 
-/// What to say where the first word is neither a command nor a file, so that clap took it for a project.
-fn misspelt(error: &clap::Error) -> Option<String> {
-    let first = std::env::args_os().nth(1)?;
+/// Whether `path` could as well be a command: it has neither folder nor ending, and is no `sample:NAME`.
+fn is_word(path: &Path) -> bool {
+    path.to_str().is_some_and(|text| !text.contains(['/', '\\', '.', ':']))
+}
+
+/// What to say of a first word that clap took for a project, where it is neither a command nor a file.
+fn misspelt(first: &OsStr) -> Option<String> {
     let word = first.to_str().filter(|word| !word.starts_with('-') && !Path::new(word).exists())?;
     let commands = Arguments::command();
     let names: Vec<&str> = commands.get_subcommands().map(clap::Command::get_name).collect();
-    let is_misspelt = error.kind() == ErrorKind::ArgumentConflict && !names.contains(&word);
-    is_misspelt
+    (!names.contains(&word))
         .then(|| format!("error: {word} is neither a command nor a file\n\ncommands: {}", names.join(", ")))
 }
 

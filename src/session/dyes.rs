@@ -150,7 +150,8 @@ impl Dyes {
         let [least, most] = REPEATS;
         let wrong = prints.map(|print| print.repeat_m).find(|repeat| !(least..=most).contains(repeat));
         let wrong = wrong.map(|repeat| {
-            words!("a print repeats every {repeat} m, not every {least} to {most} m", repeat, least, most)
+            let [repeat, least, most] = [repeat, least, most].map(|metres| (metres * 1e5).round() / 100.0);
+            words!("a print repeats every {repeat} mm, not every {least} to {most} mm", repeat, least, most)
         });
         wrong.or_else(|| self.each().find_map(|dye| dye.image?.problem()))
     }
@@ -205,6 +206,9 @@ mod tests {
         assert!(dyes.pieces.is_empty() && dyes.problem().is_none());
         dyes.set(None, Dye { print: Some(Print { repeat_m: f64::NAN, ..print }), ..Dye::default() });
         assert!(dyes.problem().is_some_and(|words| words.contains("NaN")));
+        dyes.set(None, Dye { print: Some(Print { repeat_m: 2.5, ..print }), ..Dye::default() });
+        let told = dyes.problem().map(|words| words.to_string());
+        assert_eq!(told.as_deref(), Some("a print repeats every 2500 mm, not every 1 to 2000 mm"));
     }
 
     #[test]

@@ -135,6 +135,8 @@ fn wrong_arguments_are_told() {
     place.ends_with_words(2, "dress", "PROJECT");
     place.ends_with_words(2, "dress ball.toile", "--out");
     place.ends_with_words(2, "dres ball.toile --out o", "dres is neither a command nor a file");
+    place.ends_with_words(2, "measur", "measur is neither a command nor a file");
+    place.ends_with_words(6, "measur.toile", "there is no such file");
     place.ends_with_words(2, "dress ball.toile --out o --view inside", "inside");
     place.ends_with_words(2, "dress ball.toile --out o --size 0x7", "0x7");
     place.ends_with_words(2, "dress ball.toile --out o --threads 0", "--threads");
