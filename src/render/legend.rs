@@ -78,7 +78,7 @@ mod tests {
     use super::*;
 
     fn legend(range: [f64; 2]) -> Legend {
-        let (title, unit) = ("Strain along the grain".to_owned(), "%".to_owned());
+        let (title, unit) = ("Warp strain: along the grain".to_owned(), "%".to_owned());
         Legend { title, unit, range, palette: Palette::Diverging, decimal_sign: '.' }
     }
 

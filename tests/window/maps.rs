@@ -27,7 +27,7 @@ fn a_map_is_worked_out_once_and_none_costs_nothing() {
     assert_eq!(app(&window).maps(), 1);
     window.run_steps(30);
     assert_eq!(app(&window).maps(), 1, "the cloth lies still");
-    choose(&mut window, "Strain along the grain");
+    choose(&mut window, "Warp strain: along the grain");
     assert_eq!(app(&window).maps(), 2);
     // Cloth that changes is read anew as long as the map is shown.
     key(&mut window, Modifiers::COMMAND, Key::Z);
@@ -334,7 +334,7 @@ fn the_side_panel_tells_how_much_wider_the_garment_is() {
 #[test]
 fn the_legend_leaves_the_buttons_of_a_narrow_pane_free() {
     let mut window = dressed_window();
-    choose(&mut window, "Strain along the grain");
+    choose(&mut window, "Warp strain: along the grain");
     for size in [Vec2::new(1280.0, 720.0), Vec2::new(1000.0, 700.0)] {
         window.set_size(size);
         window.run_steps(4);
@@ -347,4 +347,15 @@ fn the_legend_leaves_the_buttons_of_a_narrow_pane_free() {
             assert!(!legend.union(table).expand(4.0).intersects(button), "{name} at {button}, {size}");
         }
     }
+}
+
+#[test]
+fn keys_of_an_action_close_an_open_list() {
+    let mut window = dressed_window();
+    window.get_by_label("Map: No map").click();
+    window.run_steps(4);
+    assert!(has(&window, "Pressure on the skin"));
+    key(&mut window, Modifiers::COMMAND, Key::Z);
+    window.run_steps(4);
+    assert!(!has(&window, "Pressure on the skin"));
 }

@@ -58,8 +58,8 @@ impl MapKind {
     /// Title for the user.
     pub fn title(self) -> &'static str {
         match self {
-            Self::Warp => "Strain along the grain",
-            Self::Weft => "Strain across the grain",
+            Self::Warp => "Warp strain: along the grain",
+            Self::Weft => "Weft strain: across the grain",
             Self::Shear => "Shear",
             Self::Area => "Change of area",
             Self::Ease => "Ease: gap to the body",

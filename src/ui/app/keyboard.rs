@@ -54,6 +54,8 @@ impl App {
             // Keys that panes use too are left to them while the action is disabled.
             let is_left = refusal.is_some() && !is_of_actions_only(keys);
             if !taken && !is_left && ctx.input_mut(|i| i.consume_shortcut(&keys)) {
+                // An open menu would go on showing what was so before.
+                egui::Popup::close_all(ctx);
                 asks.push(refusal.map_or(Ask::Act(action), Ask::Say));
             }
         }
