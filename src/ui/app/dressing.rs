@@ -69,12 +69,17 @@ impl App {
             return;
         }
         self.started.clone_from(&snapshot.started);
+        self.messages.forget_result();
         let Some(started) = &snapshot.started else {
             self.ghosts = None;
             return;
         };
         let has_marks = document.marks.pairs().next().is_some();
-        self.messages.tell(words(started, has_marks));
+        let words = words(started, has_marks);
+        match started.draped_fault().is_some() || !started.taken().faults.is_empty() {
+            true => self.messages.tell_result(words),
+            false => self.messages.tell(words),
+        }
         let suggested =
             started.taken().start == Start::Marks && started.taken().as_built.is_none() && !has_marks;
         if let Some(source) = snapshot.source.as_ref().filter(|_| suggested) {

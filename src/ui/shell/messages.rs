@@ -1,4 +1,4 @@
-//! Short messages over the panes. Errors stay until they are closed.
+//! Short messages over the panes. Errors, and what is wrong with a result, stay until they are closed.
 
 use std::time::{Duration, Instant};
 
@@ -7,7 +7,7 @@ use egui::{Align2, Area, Color32, Frame, Id, Order, Stroke};
 use crate::ui::language::{say, tr, unbroken};
 use crate::ui::look::theme::Palette;
 
-/// Time that a message which is no error is shown.
+/// Time that a message which does not stay is shown.
 const SHOWN: Duration = Duration::from_secs(6);
 /// Largest number of messages shown at once; older ones are removed.
 const MOST: usize = 4;
@@ -19,8 +19,19 @@ const MOST_LOGGED: usize = 500;
 #[derive(Debug)]
 struct Message {
     words: String,
-    is_error: bool,
+    kind: Kind,
     since: Instant,
+}
+
+/// How a message is shown.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Kind {
+    /// For a while.
+    Note,
+    /// Until it is closed, or the next of its kind comes.
+    Result,
+    /// Until it is closed.
+    Error,
 }
 
 /// A message in the log.
@@ -44,37 +55,52 @@ pub struct Messages {
 impl Messages {
     /// Shows a message.
     pub fn tell(&mut self, words: impl Into<String>) {
-        self.push(words.into(), false);
+        self.push(words.into(), Kind::Note);
+    }
+
+    /// Shows what is wrong with what was made, in place of what was said so before.
+    pub fn tell_result(&mut self, words: impl Into<String>) {
+        self.forget_result();
+        self.push(words.into(), Kind::Result);
+    }
+
+    /// Removes what [`Self::tell_result`] shows.
+    pub fn forget_result(&mut self) {
+        self.all.retain(|m| m.kind != Kind::Result);
     }
 
     /// Shows an error.
     pub fn error(&mut self, words: impl Into<String>) {
-        self.push(words.into(), true);
+        self.push(words.into(), Kind::Error);
     }
 
-    fn push(&mut self, words: String, is_error: bool) {
+    fn push(&mut self, words: String, kind: Kind) {
         self.all.retain(|m| m.words != words);
         if self.all.len() >= MOST {
-            // The oldest message that is no error is removed; errors stay until they are read.
-            let oldest = self.all.iter().position(|m| !m.is_error).unwrap_or(0);
+            // The oldest message that does not stay is removed.
+            let oldest = self.all.iter().position(|m| m.kind == Kind::Note).unwrap_or(0);
             self.all.remove(oldest);
         }
         let after = self.begun.get_or_insert_with(Instant::now).elapsed();
         if self.log.len() >= MOST_LOGGED {
             self.log.remove(0);
         }
-        self.log.push(LogEntry { words: words.clone(), is_error, after });
-        self.all.push(Message { words, is_error, since: Instant::now() });
+        self.log.push(LogEntry { words: words.clone(), is_error: kind == Kind::Error, after });
+        self.all.push(Message { words, kind, since: Instant::now() });
     }
 
     /// Draws the messages in the lower left corner, above `above`.
     pub fn ui(&mut self, ctx: &egui::Context, palette: &Palette, above: f32) {
-        self.all.retain(|m| m.is_error || m.since.elapsed() < SHOWN);
-        let Some(next) = self.all.iter().filter(|m| !m.is_error).map(|m| m.since).min() else {
+        self.forget_old(Instant::now());
+        let Some(next) = self.all.iter().filter(|m| m.kind == Kind::Note).map(|m| m.since).min() else {
             return self.show(ctx, palette, above);
         };
         ctx.request_repaint_after(SHOWN.saturating_sub(next.elapsed()) + Duration::from_millis(20));
         self.show(ctx, palette, above);
+    }
+
+    fn forget_old(&mut self, now: Instant) {
+        self.all.retain(|m| m.kind != Kind::Note || now.duration_since(m.since) < SHOWN);
     }
 
     /// The log as text, a line for each message.
@@ -131,7 +157,8 @@ impl LogEntry {
 }
 
 fn message_ui(ui: &mut egui::Ui, message: &Message, palette: &Palette) -> bool {
-    let edge = if message.is_error { palette.error } else { palette.accent };
+    let is_error = message.kind == Kind::Error;
+    let edge = if is_error { palette.error } else { palette.accent };
     Frame::popup(ui.style())
         .stroke(Stroke::new(1.0, edge))
         .shadow(egui::Shadow { offset: [0, 2], blur: 10, spread: 0, color: Color32::from_black_alpha(40) })
@@ -139,7 +166,7 @@ fn message_ui(ui: &mut egui::Ui, message: &Message, palette: &Palette) -> bool {
             ui.horizontal_top(|ui| {
                 let close = ui.small_button("×").on_hover_text(tr("Close this message"));
                 let text = egui::RichText::new(unbroken(&message.words));
-                let label = egui::Label::new(if message.is_error { text.color(edge) } else { text }).wrap();
+                let label = egui::Label::new(if is_error { text.color(edge) } else { text }).wrap();
                 let words = &message.words;
                 ui.add(label).widget_info(|| egui::WidgetInfo::labeled(egui::Role::Label, true, words));
                 close.clicked()
@@ -147,4 +174,24 @@ fn message_ui(ui: &mut egui::Ui, message: &Message, palette: &Palette) -> bool {
             .inner
         })
         .inner
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_is_wrong_with_a_result_stays_until_the_next() {
+        let mut messages = Messages::default();
+        let shown = |messages: &Messages| messages.all.iter().map(|m| m.words.clone()).collect::<Vec<_>>();
+        messages.tell("a note");
+        messages.tell_result("it slid down");
+        messages.error("no room");
+        messages.forget_old(Instant::now() + SHOWN);
+        assert_eq!(shown(&messages), ["it slid down", "no room"]);
+        messages.tell_result("it crosses itself");
+        assert_eq!(shown(&messages), ["no room", "it crosses itself"]);
+        messages.forget_result();
+        assert_eq!(shown(&messages), ["no room"]);
+    }
 }
