@@ -35,6 +35,8 @@ pub struct Lies<'a> {
     pub sewn: bool,
     /// Heights of the highest points of its pieces before a start draped it, metres; None where none did, or the body has moved.
     pub hung_at: Option<&'a [f64]>,
+    /// Unbalanced force as a share of the weight, where draping ended though the cloth never came to rest.
+    pub unbalanced: Option<f64>,
 }
 
 /// A pair of marks near a fault.
@@ -65,6 +67,7 @@ pub fn faults(
         };
         found.extend(fallen.into_iter().map(|fallen| told_fallen(fallen, garment)));
     }
+    found.extend(lies.unbalanced.map(told_restless));
     if found.is_empty() {
         return Vec::new();
     }
@@ -89,6 +92,14 @@ fn told_fallen(fallen: Fallen, garment: &Garment) -> (Problem, fit::Spot) {
         cm = decimal(fallen.by * 100.0, 0)
     );
     (Problem { kind: ProblemKind::Dressing, place, words }, fit::Spot::Piece(fallen.piece))
+}
+
+fn told_restless(unbalanced: f64) -> (Problem, fit::Spot) {
+    let words = words!(
+        "it does not come to rest: {percent} % of its weight is still out of balance",
+        percent = decimal(unbalanced * 100.0, 1)
+    );
+    (Problem { kind: ProblemKind::Dressing, place: words!("garment"), words }, fit::Spot::Nowhere)
 }
 
 /// `problem` with the marks near it: by their numbers, or by their `places` where the marks were suggested, since nobody knows numbers

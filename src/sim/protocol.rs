@@ -161,10 +161,18 @@ pub struct Snapshot {
     pub started: Option<Arc<Started>>,
 }
 
+/// Residual above which cloth that never comes to rest is seen to move: trembling at 5 Hz, it swings by half a millimetre.
+const SEEN: f64 = 0.05;
+
 impl DrapeState {
     /// Progress, 0..=1: the share of the way, else the residual on a logarithmic scale from 1 (free fall) to 0.01 (at rest).
     pub fn progress(&self) -> f64 {
         self.way.unwrap_or_else(|| (-self.residual.max(f64::MIN_POSITIVE).log10() / 2.0).clamp(0.0, 1.0))
+    }
+
+    /// The residual of cloth that was draped, never came to rest, and is seen to move.
+    pub fn unbalanced(&self) -> Option<f64> {
+        (self.restless && self.residual > SEEN).then_some(self.residual)
     }
 }
 
@@ -177,6 +185,8 @@ pub struct DrapeState {
     pub waits: bool,
     /// Whether it goes on: the cloth is not at rest, and ticks are left.
     pub runs: bool,
+    /// Whether draping has ended though the cloth still moves.
+    pub restless: bool,
     /// Unbalanced force as a share of the weight: Σ m |Δv| / Δt over Σ m g.
     pub residual: f64,
     /// Speed of the fastest vertex, m/s.
@@ -201,7 +211,8 @@ impl Snapshot {
 
     /// How the cloth came to its present position.
     pub fn lies(&self) -> Lies<'_> {
-        Lies { moved: self.moved, sewn: self.was_sewn, hung_at: self.hung_at.as_deref() }
+        let unbalanced = self.drape.and_then(|drape| drape.unbalanced());
+        Lies { moved: self.moved, sewn: self.was_sewn, hung_at: self.hung_at.as_deref(), unbalanced }
     }
 
     /// Whether any cloth is on the body.

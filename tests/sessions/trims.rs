@@ -241,6 +241,10 @@ fn buttons_hold_let_go_and_are_fastened_again() {
     s.apply_alone(fasten(false)).expect("unfastened");
     assert!(run(&mut s, 2000) > 10, "the cloth goes on by itself");
     assert!(gap(&s) > 0.01, "{}", gap(&s));
+    assert!(
+        s.snapshot().drape.is_some_and(|drape| !drape.runs && drape.restless),
+        "it slid off and still falls"
+    );
     assert_eq!(fastened(&s).open, 3);
     s.apply_alone(Command::Undo).expect("undone");
     s.update();

@@ -12,9 +12,9 @@ use crate::drape::garment::DrapedGarment;
 
 impl DrapedGarment {
     /// Replaces the body by `surface`, the same body a little further on, and moves each vertex of the garment by `ways`, metres.
-    /// Time stands still meanwhile: the next tick finds a body at rest, and the cloth moves against it only. Where cloth would
-    /// come to cross itself, what would meet goes together, by its mean displacement. False where that does not help; then
-    /// nothing has changed.
+    /// Time stands still meanwhile, and then goes on as slowly as before: the next tick finds a body at rest, and the cloth moves
+    /// against it only. Where cloth would come to cross itself, what would meet goes together, by its mean displacement. False where
+    /// that does not help; then nothing has changed.
     pub fn carry(&mut self, surface: Arc<Surface>, ways: &[DVec3], cloth: &mut ClothState) -> bool {
         let mut together = Together::new(ways);
         let before = self.state.positions.clone();
@@ -49,7 +49,7 @@ impl DrapedGarment {
         if let Some(separation) = &mut self.small.separation {
             separation.set_obstacle(Some(Arc::clone(&self.obstacle)));
         }
-        self.wake();
+        self.stir();
     }
 }
 

@@ -3,6 +3,7 @@
 use std::sync::Arc;
 
 use crate::cloth::ClothState;
+use crate::contact::Faces;
 use crate::contact::faces::Lying;
 use crate::drape::garment::{DrapedGarment, own_number};
 use crate::geometry::crossings::meetings;
@@ -55,6 +56,34 @@ impl DrapedGarment {
         }
         if precise && self.lacking == 0 && !self.is_known_clean() {
             self.lift_cuts(cloth, &mut raised, times * LIFTING.clearance * fixed.offset);
+        }
+        self.small.set_lift(&raised);
+    }
+
+    /// Raises the vertices of cloth that rests as high as it lies, as far as its faces need that: nothing else tells how it was
+    /// raised when it came to rest.
+    pub(super) fn lift_as_it_lies(&mut self, cloth: &ClothState) {
+        let fixed = Arc::clone(&self.fixed);
+        let (garment, surface) = (&*fixed.garment, &*self.collider.surface);
+        let (clearance, most) = (LIFTING.clearance * fixed.offset, LIFTING.most * fixed.offset);
+        let mut near = vec![false; garment.vertex_count];
+        let mut heights = vec![0.0; self.state.positions.len()];
+        let mut fallen = cloth.clone();
+        for ((&v, x), height) in fixed.vertices.iter().zip(&self.state.positions).zip(&mut heights) {
+            if let Some(skin) = surface.nearest_within(*x, fixed.offset + most) {
+                near[v as usize] = true;
+                *height = (skin.distance - fixed.offset).max(0.0);
+                fallen.positions[v as usize] = *x - skin.normal * *height;
+            }
+        }
+        let lying =
+            Lying { garment, surface, state: &fallen, skips: self.settings.skips, split: None, apart: None };
+        let lacking = Faces::default().lacking(lying, &near, clearance, &mut self.counters);
+        let mut raised = self.small.lift().to_vec();
+        for (vs, lack) in garment.triangles.iter().zip(lacking) {
+            for v in vs.iter().filter_map(|&v| own_number(&fixed.own, v)) {
+                raised[v] = raised[v].max(lack.min(heights[v]));
+            }
         }
         self.small.set_lift(&raised);
     }

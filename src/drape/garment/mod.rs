@@ -89,8 +89,10 @@ pub struct Progress {
     pub residual: f64,
     /// Speed of the fastest vertex, m/s.
     pub speed: f64,
-    /// Whether the cloth rests.
+    /// Whether the cloth rests, or is left as it is.
     pub at_rest: bool,
+    /// Whether it is left as it is though it still moves.
+    pub restless: bool,
 }
 
 /// Parts that do not change during a simulation.
@@ -134,6 +136,8 @@ pub struct DrapedGarment {
     progress: Progress,
     /// Time scale of a tick, above 0 and up to 1: see [`rest`].
     pace: f64,
+    /// Whether it goes on from rest: see [`DrapedGarment::resume`].
+    resumes: bool,
     quiet: u32,
     /// Self-intersections at the last check.
     crossings: usize,
@@ -225,8 +229,7 @@ impl DrapedGarment {
         let slow = stable_rate(TICK / count as f64, BENDING_DAMPING);
         let plates = plates(&garment, &own, sheet.len(), |v| beside(&sheet, v).bending);
         let bending = Bending::slower_than(slow, &mass, &sheet, |v| &plates[v as usize]);
-        let mut pinned = vec![false; sheet.len()];
-        pins.iter().filter_map(|&v| own_number(&own, v)).for_each(|v| pinned[v] = true);
+        let pinned = among(pins, &own, sheet.len());
         let length = shortest_lengths(&garment, sewn, &vertices);
         let springs = worked.bands.take_springs(springs(&sheet, &of_triangle, length));
         let mut small =
@@ -243,8 +246,9 @@ impl DrapedGarment {
             substeps: count,
             floats: sewn.is_some(),
             rubs: None,
-            progress: Progress { ticks: 0, residual: 1.0, speed: 0.0, at_rest: false },
+            progress: Progress { ticks: 0, residual: 1.0, speed: 0.0, at_rest: false, restless: false },
             pace: 1.0,
+            resumes: false,
             quiet: 0,
             crossings: 0,
             parting: (usize::MAX, 0),
@@ -332,9 +336,8 @@ impl DrapedGarment {
 
     /// Replaces the set of pinned vertices; cloth at rest wakes.
     pub fn pin(&mut self, pins: &[u32]) {
-        self.pinned.fill(false);
         let fixed = Arc::clone(&self.fixed);
-        pins.iter().filter_map(|&v| own_number(&fixed.own, v)).for_each(|v| self.pinned[v] = true);
+        self.pinned = among(pins, &fixed.own, self.pinned.len());
         self.small.pin(&fixed.mass, &self.pinned);
         for (v, velocity) in self.state.velocities.iter_mut().enumerate() {
             if self.pinned[v] {
@@ -409,11 +412,17 @@ impl DrapedGarment {
 
     /// Makes cloth at rest move again, and restarts the tick count.
     pub fn wake(&mut self) {
+        (self.pace, self.resumes) = (1.0, false);
+        self.stir();
+    }
+
+    /// As [`Self::wake`], while time goes on as slowly as it does.
+    fn stir(&mut self) {
         if let Some(pulling) = self.pulling.take() {
             self.state = pulling.least;
         }
-        (self.quiet, self.pace, self.parting, self.in_vain) = (0, 1.0, (usize::MAX, 0), 0);
-        self.progress = Progress { ticks: 0, at_rest: false, ..self.progress };
+        (self.quiet, self.parting, self.in_vain) = (0, (usize::MAX, 0), 0);
+        self.progress = Progress { ticks: 0, at_rest: false, restless: false, ..self.progress };
     }
 
     /// Runs a tick: [`TICK`] seconds, or less while time is slowed down. Deep self-intersections are then pulled out, while time
@@ -457,11 +466,13 @@ impl DrapedGarment {
             }
         };
         let grip = if self.floats && self.rubs.is_none() { 0.0 } else { GRIP };
+        let calms = calming(self.progress.ticks, self.pace);
         let mut around = Surroundings {
             bending: &fixed.bending,
             bending_damping: BENDING_DAMPING,
+            settles: (calms > 0.0 || self.resumes) && !self.floats,
             gravity: if self.floats { DVec3::ZERO } else { GRAVITY },
-            damping: fixed.damping + calming(self.progress.ticks, self.pace) + gentle(self.age),
+            damping: fixed.damping + calms + gentle(self.age),
             collider: Some(&collider),
             offset: fixed.offset,
             friction: &fixed.friction,
@@ -555,6 +566,13 @@ fn masses(sheet: &Sheet, fabrics: &[&Fabric]) -> Vec<f64> {
         vs.iter().for_each(|&v| mass[v as usize] += fabric.density_kg_per_m2 * area / 3.0);
     }
     mass
+}
+
+/// For each of `count` simulated vertices whether it is one of the garment's `vertices`.
+fn among(vertices: &[u32], own: &[u32], count: usize) -> Vec<bool> {
+    let mut is_among = vec![false; count];
+    vertices.iter().filter_map(|&v| own_number(own, v)).for_each(|v| is_among[v] = true);
+    is_among
 }
 
 /// The simulated vertex of garment vertex `v`; None where it is not draped.

@@ -1,6 +1,6 @@
 //! When draped cloth rests, and how time slows down until it does.
 
-use crate::cloth::GRAVITY;
+use crate::cloth::{ClothState, GRAVITY};
 use crate::drape::garment::{DrapedGarment, Progress, TICK};
 use crate::drape::state::State;
 
@@ -12,7 +12,7 @@ struct ComingToRest {
     residual: f64,
     /// Consecutive ticks in which both must hold before the cloth counts as resting.
     quiet_ticks: u32,
-    /// Ticks after which it counts as resting in any case.
+    /// Ticks after which it is left as it is in any case.
     most_ticks: u64,
     /// Time is slowed down once the unbalanced force is below this share of the weight: the cloth has come down. One pass in a small
     /// step leaves edges only as stiff as mass over the step squared, far softer than woven cloth, so cloth that hangs from a tight
@@ -44,16 +44,36 @@ impl DrapedGarment {
         self.quiet >= COMING_TO_REST.quiet_ticks
     }
 
+    /// Goes on with cloth that rested in another simulation, as [`Self::resume`] does.
+    pub fn rested(mut self, cloth: &ClothState) -> Self {
+        self.lift_as_it_lies(cloth);
+        self.resume();
+        self
+    }
+
+    /// Goes on with cloth that rested. Time begins as slowly as it ended: with the longer steps of unslowed time cloth at rest would
+    /// sink under its own weight, and slip. Where it is seen soon that it does not rest any more, time is not slowed.
+    pub fn resume(&mut self) {
+        self.stir();
+        (self.pace, self.resumes) = (COMING_TO_REST.slowest, true);
+    }
+
     /// Decides at the end of a tick whether the cloth rests.
     pub(super) fn conclude(&mut self) {
-        let (ticks, quiet) = (self.progress.ticks, self.is_quiet());
+        let ComingToRest { quiet_ticks, down, .. } = COMING_TO_REST;
+        if self.resumes && self.progress.ticks == u64::from(quiet_ticks) && self.progress.residual >= down {
+            self.wake();
+        }
+        let (ticks, quiet, moves) = (self.progress.ticks, self.is_quiet(), self.quiet == 0);
         let sound = self.lacking == 0 && (self.crossings == 0 || self.is_tangled());
         if quiet && !sound {
             self.quiet = 0;
         }
         if self.small.hand.is_none() {
             let slowed = self.slow_down();
-            self.progress.at_rest = (quiet && sound && !slowed) || ticks >= COMING_TO_REST.most_ticks;
+            let is_left = ticks >= COMING_TO_REST.most_ticks;
+            self.progress.at_rest = (quiet && sound && !slowed) || is_left;
+            self.progress.restless = is_left && moves;
         }
     }
 
@@ -85,7 +105,8 @@ impl DrapedGarment {
         self.age += TICK;
         let weight = mass.iter().sum::<f64>() * GRAVITY.length();
         let (residual, speed) = (unbalanced / weight, fastest);
-        self.progress = Progress { ticks: self.progress.ticks + 1, residual, speed, at_rest: false };
+        self.progress =
+            Progress { ticks: self.progress.ticks + 1, residual, speed, at_rest: false, restless: false };
         let still = speed * span < COMING_TO_REST.way && residual < COMING_TO_REST.residual;
         self.quiet = if still { self.quiet + 1 } else { 0 };
     }

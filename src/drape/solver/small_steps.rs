@@ -75,6 +75,9 @@ pub struct SmallSteps {
     body: Option<Arc<Surface>>,
     /// Time by which velocities lag behind positions, s: half a small step.
     lag: f64,
+    /// Displacement of each vertex since bending was last evaluated, metres, and the time that took, s; only for cloth that
+    /// [settles](Surroundings::settles).
+    gone: (Vec<DVec3>, f64),
     /// Nearest-point queries of the body.
     pub queries: u64,
     /// Queries saved because the vertex was known to be far from the body.
@@ -115,6 +118,13 @@ pub fn stable_rate(small: f64, damping: f64) -> f64 {
     let most = SAFE * 2.0 / small;
     // ω (1 + ω τ) = most.
     2.0 * most / (1.0 + (1.0 + 4.0 * most * damping).sqrt())
+}
+
+/// Longest time in 1/ω for which the bending force is held where it is damped by τ = `damped`/ω and evaluated with the mean velocity
+/// since it was last. With s = ωτ and h = ωH, what swings with ω comes to rest while (h²/2)(1 + s/h)(3 + 2s/h) < 1 + 2s/h (Jury's
+/// criterion); this is below that for every s.
+fn longest_hold(damped: f64) -> f64 {
+    0.75 / (1.0 + 0.4 * damped)
 }
 
 impl SmallSteps {
@@ -170,6 +180,7 @@ impl SmallSteps {
             separation: None,
             body: None,
             lag: 0.0,
+            gone: (Vec::new(), 0.0),
             queries: 0,
             skipped: 0,
         }
@@ -234,6 +245,7 @@ impl SmallSteps {
         let around = Surroundings {
             bending: softened.as_deref().unwrap_or(&scene.elastic.bending),
             bending_damping: 0.0,
+            settles: false,
             gravity: scene.gravity,
             damping: scene.damping,
             collider: scene.collider.as_ref(),
@@ -302,7 +314,7 @@ impl SmallSteps {
         let Advance { small, count, done: s, .. } = *advance;
         let part = 1.0 / count as f64;
         self.net.ready(small, &self.inverse_mass);
-        let every = self.bending_every(small, around.bending_damping).min(count);
+        let every = self.bending_every(small, around).min(count);
         let drag = (-around.damping * small).exp();
         let Advance { bent, before, .. } = advance;
         bent.resize(state.positions.len(), DVec3::ZERO);
@@ -311,6 +323,8 @@ impl SmallSteps {
         let kick = if s == 0 { self.lag + small / 2.0 } else { small };
         if s % every == 0 && self.bending_rate > 0.0 {
             self.bend(around, (x, &mut state.velocities), (before, bent), (small, every.min(count - s)));
+            self.gone.0.fill(DVec3::ZERO);
+            self.gone.1 = 0.0;
         }
         let net = &self.net;
         let of_body = (&mut self.planes[..], &mut self.creases[..]);
@@ -364,6 +378,14 @@ impl SmallSteps {
         for (v, (now, then)) in state.velocities.iter_mut().zip(places) {
             *v = (*now - *then) / advance.small;
         }
+        if around.settles && self.bending_rate > 0.0 {
+            let (ways, time) = &mut self.gone;
+            ways.resize(state.positions.len(), DVec3::ZERO);
+            ways.iter_mut().zip(&state.velocities).for_each(|(way, v)| *way += *v * advance.small);
+            *time += advance.small;
+        } else {
+            self.gone = (Vec::new(), 0.0);
+        }
         advance.done += 1;
         if advance.is_done() {
             self.lag = advance.small / 2.0;
@@ -391,10 +413,14 @@ impl SmallSteps {
         // An occasional impulse conserves energy but shakes cloth that should come to rest. A force held constant lags by half of
         // the time that it is held, so it is evaluated that much ahead.
         if around.bending_damping > 0.0 {
-            // The energy is quadratic: the force at x + τ v is the elastic force plus the damping force.
-            let ahead = around.bending_damping + span / 2.0;
-            for (place, (x, v)) in scratch.iter_mut().zip(x.iter().zip(velocities.iter())) {
-                *place = *x + *v * ahead;
+            // The energy is quadratic: the force at x + τ v is the elastic force plus the damping force. The velocity of a moment
+            // would shake what swings faster than the force is evaluated; the mean one is that of half its time ago.
+            let (ways, time) = &self.gone;
+            let is_known = *time > 0.0;
+            let lag = if is_known { span - small / 2.0 } else { span / 2.0 };
+            let ahead = around.bending_damping + lag;
+            for (i, (place, (x, v))) in scratch.iter_mut().zip(x.iter().zip(velocities.iter())).enumerate() {
+                *place = *x + if is_known { ways[i] / *time } else { *v } * ahead;
             }
             around.bending.write_forces(scratch, bent, |i| small * self.inverse_mass[i]);
         } else {
@@ -479,14 +505,15 @@ impl SmallSteps {
     }
 
     /// Number of small steps between two evaluations of bending.
-    fn bending_every(&self, small: f64, damping: f64) -> usize {
+    fn bending_every(&self, small: f64, around: &Surroundings<'_>) -> usize {
         if self.bending_rate == 0.0 {
             return usize::MAX;
         }
         // Explicit steps of bending are stable while they are shorter than 2/(ω + ω² τ), τ being the damping.
-        let rate = self.bending_rate * (1.0 + self.bending_rate * damping);
-        let every = SAFE * 2.0 / (rate * small);
+        let damped = self.bending_rate * around.bending_damping;
+        let every = SAFE * 2.0 / (self.bending_rate * (1.0 + damped) * small);
         debug_assert!(every > 1.0 - 1e-6, "bending was made for shorter steps than {small} s: {every}");
+        let every = if around.settles { longest_hold(damped) / (self.bending_rate * small) } else { every };
         (every as usize).max(1)
     }
 }
@@ -504,4 +531,39 @@ fn detect(
     let more = of_body + around.gravity.length() * span * span / 2.0;
     let reach = |v: usize| (speed(v) * span + more).clamp(REACH.0, REACH.1);
     separation.detect(x, reach, |v| around.collider.is_some_and(|c| c.surface.contains(x[v])));
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// What swings with ω = 1 under the held force, in `n` small steps for each evaluation, `beyond` times as long as they may be.
+    fn left(damped: f64, n: usize, beyond: f64) -> f64 {
+        let hold = longest_hold(damped) * beyond;
+        let small = hold / n as f64;
+        let (mut x, mut v, mut mean) = (1.0, 0.0, 0.0);
+        for _ in 0..4000 {
+            let force = -(x + (damped + hold - small / 2.0) * mean);
+            let before = x;
+            for _ in 0..n {
+                v += force * small;
+                x += v * small;
+            }
+            mean = (x - before) / hold;
+            if x.abs() > 1e6 {
+                break;
+            }
+        }
+        x.abs().max(v.abs())
+    }
+
+    #[test]
+    fn bending_that_is_held_brings_what_swings_to_rest() {
+        for damped in [0.01, 0.1, 0.3, 1.0, 3.0, 10.0] {
+            for n in [2, 3, 8, 30] {
+                assert!(left(damped, n, 1.0) < 1e-6, "τ {damped}, {n} steps: {}", left(damped, n, 1.0));
+            }
+        }
+        assert!(left(0.01, 30, 1.2) > 1e3 && left(0.3, 30, 1.3) > 1e3, "and hardly longer");
+    }
 }

@@ -16,6 +16,8 @@ pub struct Surroundings<'a> {
     pub bending: &'a Bending,
     /// Stiffness-proportional damping of bending, seconds.
     pub bending_damping: f64,
+    /// Whether the cloth has come down and is to come to rest: damped bending is then evaluated more often, so that nothing trembles.
+    pub settles: bool,
     /// Gravity, m/s².
     pub gravity: DVec3,
     /// Rate at which motion dies away, 1/s.

@@ -375,6 +375,7 @@ mod tests {
             on: true,
             waits: false,
             runs: true,
+            restless: false,
             residual: 0.5,
             speed: 0.1,
             ticks: 1,

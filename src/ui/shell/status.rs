@@ -135,6 +135,7 @@ fn drape_words(drape: Option<DrapeState>) -> String {
             }
         }
         Some(drape) if !drape.on => tr("Draping paused").to_owned(),
+        Some(drape) if drape.restless => tr("Draped, but not at rest").to_owned(),
         _ => tr("Draped, at rest").to_owned(),
     }
 }

@@ -72,7 +72,7 @@ impl World {
         let mut draping = known.map_or_else(|| Draping::new(source), Arc::unwrap_or_clone);
         (draping.left, draping.ends) = (ticks, None);
         if let Some(worn) = draping.worn.as_mut().filter(|worn| worn.progress().at_rest) {
-            worn.wake();
+            worn.resume();
         }
         self.draping = Some(Arc::new(draping));
     }
@@ -178,6 +178,7 @@ impl World {
         let garment = Arc::clone(self.active.as_ref().unwrap_or(garment));
         let skips = source.relax.skips;
         let worn = worn((garment, &self.cloth), Arc::clone(body), &draping.source, &held, skips)?;
+        let worn = if self.moved == Moved::Draped { worn.rested(&self.cloth) } else { worn };
         let worn = if self.trials.is_some() { worn.let_down() } else { worn };
         Arc::make_mut(draping).worn = Some(match &self.card {
             Some(slot) => worn.with_card(slot),
@@ -257,6 +258,7 @@ impl World {
             on: draping.left.is_none(),
             waits: progress.is_none() && draping.walk.is_none(),
             runs: draping.runs(),
+            restless: progress.is_some_and(|p| p.restless),
             residual: progress.map_or(1.0, |p| p.residual),
             speed: progress.map_or(0.0, |p| p.speed),
             ticks: progress.map_or(0, |p| p.ticks),

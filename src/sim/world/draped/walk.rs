@@ -56,7 +56,7 @@ impl Walk {
         let ends = body.mesh.positions.iter().zip(&to.mesh.positions);
         let farthest = ends.map(|(a, b)| a.distance(*b)).fold(0.0, f64::max);
         let stride = (STEP * body.scale() / farthest).min(1.0);
-        let worn = worn(&cloth, Arc::clone(&body))?;
+        let worn = worn(&cloth, Arc::clone(&body))?.rested(&cloth);
         Some(Self {
             path: Arc::new(path),
             reposer,
@@ -141,11 +141,43 @@ mod tests {
         let mut cloth = ClothState { mapped: vec![true; positions.len()], positions };
         let body = Arc::new(Surface::new(icosphere(RADIUS, 3)).expect("a ball"));
         let garment = Arc::new(garment);
-        let mut worn = worn(&garment, &cloth, Arc::clone(&body));
-        while !worn.progress().at_rest {
-            worn.tick(&mut cloth).expect("a tick");
+        // Again where it hangs: what hangs lower is draped in shorter steps.
+        for _ in 0..2 {
+            let worn = worn(&garment, &cloth, Arc::clone(&body));
+            rested(worn, &mut cloth);
         }
         (garment, cloth, body)
+    }
+
+    fn rested(mut worn: DrapedGarment, cloth: &mut ClothState) -> u64 {
+        while !worn.progress().at_rest {
+            worn.tick(cloth).expect("a tick");
+        }
+        worn.progress().ticks
+    }
+
+    #[test]
+    fn cloth_at_rest_that_is_draped_again_hardly_moves() {
+        let (garment, cloth, body) = on_a_ball();
+        let again = worn(&garment, &cloth, Arc::clone(&body)).rested(&cloth);
+        let mut moved = cloth.clone();
+        let ticks = rested(again, &mut moved);
+        let far = cloth.positions.iter().zip(&moved.positions).map(|(p, q)| p.distance(*q));
+        let far = far.fold(0.0, f64::max);
+        assert!(far < 0.004, "{far} after {ticks} ticks; unslowed, it slips by centimetres");
+    }
+
+    #[test]
+    fn cloth_that_rested_and_has_lost_its_hold_falls_in_unslowed_time() {
+        let (garment, mut cloth, body) = on_a_ball();
+        cloth.positions.iter_mut().for_each(|p| p.y += 0.3);
+        let mut falls = worn(&garment, &cloth, body).rested(&cloth);
+        // It falls by 30 cm in 15 ticks, or in 60 of slowed time.
+        for _ in 0..40 {
+            falls.tick(&mut cloth).expect("a tick");
+        }
+        let lowest = cloth.positions.iter().map(|p| p.length()).fold(f64::MAX, f64::min);
+        assert!(lowest < RADIUS * 1.02, "{lowest}");
     }
 
     #[test]
@@ -173,6 +205,6 @@ mod tests {
         assert!(walk.cloth.positions.iter().all(|q| (*q - way).length() > RADIUS * 0.99), "inside the ball");
         // Of a way of 22 cm and a turn of 34 degrees, in which cloth that hangs swings.
         let (lies, hangs) = (far(&walk, &is_on), far(&walk, &|_| true));
-        assert!(lies < 0.01 && hangs < 0.03, "{lies} {hangs}");
+        assert!(lies < 0.007 && hangs < 0.012, "{lies} {hangs}");
     }
 }

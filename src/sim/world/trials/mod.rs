@@ -451,7 +451,8 @@ impl World {
         let (garment, cloth) =
             split.as_ref().map_or((garment, &self.cloth), |(garment, cloth)| (garment, cloth));
         let hung_at = self.hung_at.as_deref().filter(|_| self.moved == Moved::Draped);
-        let lies = Lies { moved: self.moved, sewn: self.was_sewn, hung_at };
+        let unbalanced = self.drape_state().and_then(|drape| drape.unbalanced());
+        let lies = Lies { moved: self.moved, sewn: self.was_sewn, hung_at, unbalanced };
         let index = BodyIndex::new(body);
         let report = measure(&source.pattern, garment, cloth, &index);
         Some(Judged {
