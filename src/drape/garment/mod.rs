@@ -344,7 +344,7 @@ impl DrapedGarment {
                 *velocity = DVec3::ZERO;
             }
         }
-        self.wake();
+        self.hold_otherwise();
     }
 
     /// Begins to drag `vertex`, with its present position as the target. Does nothing where no cloth is draped.

@@ -58,10 +58,17 @@ impl DrapedGarment {
         (self.pace, self.resumes) = (COMING_TO_REST.slowest, true);
     }
 
+    /// Makes cloth move again that something holds otherwise now: as slowly as time goes, if it has come down.
+    pub(super) fn hold_otherwise(&mut self) {
+        if self.pace < 1.0 { self.resume() } else { self.wake() }
+    }
+
     /// Decides at the end of a tick whether the cloth rests.
     pub(super) fn conclude(&mut self) {
         let ComingToRest { quiet_ticks, down, .. } = COMING_TO_REST;
-        if self.resumes && self.progress.ticks == u64::from(quiet_ticks) && self.progress.residual >= down {
+        // Half way between what has come down and what falls freely, on a logarithmic scale.
+        let falls = self.progress.residual >= down.sqrt();
+        if self.resumes && self.progress.ticks == u64::from(quiet_ticks) && falls {
             self.wake();
         }
         let (ticks, quiet, moves) = (self.progress.ticks, self.is_quiet(), self.quiet == 0);

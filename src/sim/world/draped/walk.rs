@@ -168,6 +168,23 @@ mod tests {
     }
 
     #[test]
+    fn a_pin_put_into_cloth_at_rest_and_taken_out_again_hardly_moves_it() {
+        let (garment, mut cloth, body) = on_a_ball();
+        let before = cloth.clone();
+        let mut worn = worn(&garment, &cloth, body).rested(&cloth);
+        let mut farthest = 0.0f64;
+        for pins in [&[][..], &[0], &[]] {
+            worn.pin(pins);
+            while !worn.progress().at_rest {
+                worn.tick(&mut cloth).expect("a tick");
+                let far = before.positions.iter().zip(&cloth.positions).map(|(p, q)| p.distance(*q));
+                farthest = far.fold(farthest, f64::max);
+            }
+        }
+        assert!(farthest < 0.006, "{farthest}");
+    }
+
+    #[test]
     fn cloth_that_rested_and_has_lost_its_hold_falls_in_unslowed_time() {
         let (garment, mut cloth, body) = on_a_ball();
         cloth.positions.iter_mut().for_each(|p| p.y += 0.3);
