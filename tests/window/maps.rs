@@ -359,3 +359,16 @@ fn keys_of_an_action_close_an_open_list() {
     window.run_steps(4);
     assert!(!has(&window, "Pressure on the skin"));
 }
+
+#[test]
+fn a_map_chosen_with_enter_closes_the_list() {
+    let mut window = dressed_window();
+    window.get_by_label("Map: No map").click();
+    window.run_steps(4);
+    window.get_by_label("Shear").focus();
+    window.run_steps(2);
+    key(&mut window, Modifiers::NONE, Key::Enter);
+    window.run_steps(4);
+    assert!(has(&window, "Map: Shear"));
+    assert!(!has(&window, "Pressure on the skin"), "the list");
+}

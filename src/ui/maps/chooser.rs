@@ -24,6 +24,8 @@ pub fn chooser_ui(ui: &mut egui::Ui, now: &FrameContext, asks: &mut Asks) {
                 let action = Action::Map(kind);
                 if ui.selectable_label(now.map == kind, tr(action.row().text)).clicked() {
                     asks.push(Ask::Act(action));
+                    // Only the mouse closes it by itself.
+                    ui.close();
                 }
             }
         });
