@@ -349,12 +349,18 @@ fn the_legend_leaves_the_buttons_of_a_narrow_pane_free() {
     }
 }
 
-#[test]
-fn keys_of_an_action_close_an_open_list() {
+/// A window with the list of the map button open.
+fn window_with_list() -> Window {
     let mut window = dressed_window();
     window.get_by_label("Map: No map").click();
     window.run_steps(4);
     assert!(has(&window, "Pressure on the skin"));
+    window
+}
+
+#[test]
+fn keys_of_an_action_close_an_open_list() {
+    let mut window = window_with_list();
     key(&mut window, Modifiers::COMMAND, Key::Z);
     window.run_steps(4);
     assert!(!has(&window, "Pressure on the skin"));
@@ -362,9 +368,7 @@ fn keys_of_an_action_close_an_open_list() {
 
 #[test]
 fn a_map_chosen_with_enter_closes_the_list() {
-    let mut window = dressed_window();
-    window.get_by_label("Map: No map").click();
-    window.run_steps(4);
+    let mut window = window_with_list();
     window.get_by_label("Shear").focus();
     window.run_steps(2);
     key(&mut window, Modifiers::NONE, Key::Enter);

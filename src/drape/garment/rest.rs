@@ -58,7 +58,7 @@ impl DrapedGarment {
         (self.pace, self.resumes) = (COMING_TO_REST.slowest, true);
     }
 
-    /// Makes cloth move again that something holds otherwise now: as slowly as time goes, if it has come down.
+    /// Makes cloth move again that is held otherwise now: as if it rested, once time is slowed down, since it has come down then.
     pub(super) fn hold_otherwise(&mut self) {
         if self.pace < 1.0 { self.resume() } else { self.wake() }
     }
