@@ -151,7 +151,7 @@ impl Dyes {
         let wrong = prints.map(|print| print.repeat_m).find(|repeat| !(least..=most).contains(repeat));
         let wrong = wrong.map(|repeat| {
             let [repeat, least, most] = [repeat, least, most].map(|metres| (metres * 1e5).round() / 100.0);
-            words!("the repeat of a print is {least} to {most} mm, not {repeat} mm", least, most, repeat)
+            words!("a print repeats every {least} to {most} mm, not every {repeat} mm", least, most, repeat)
         });
         wrong.or_else(|| self.each().find_map(|dye| dye.image?.problem()))
     }
@@ -208,7 +208,7 @@ mod tests {
         assert!(dyes.problem().is_some_and(|words| words.contains("NaN")));
         dyes.set(None, Dye { print: Some(Print { repeat_m: 2.5, ..print }), ..Dye::default() });
         let told = dyes.problem().map(|words| words.to_string());
-        assert_eq!(told.as_deref(), Some("the repeat of a print is 1 to 2000 mm, not 2500 mm"));
+        assert_eq!(told.as_deref(), Some("a print repeats every 1 to 2000 mm, not every 2500 mm"));
     }
 
     #[test]
