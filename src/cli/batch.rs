@@ -11,6 +11,7 @@ use serde_json::{Map, Value};
 use crate::cli::arguments::Dress;
 use crate::cli::dress_one::{Done, dress_one};
 use crate::cli::failure::Failure;
+use crate::cli::graphics::Graphics;
 use crate::cli::lines::Lines;
 use crate::cli::list::{self, Entry};
 use crate::cli::seconds::Begun;
@@ -72,13 +73,14 @@ pub fn batch(arguments: &Dress) -> Result<(), Failure> {
         lines = Some(Lines::open(&arguments.out, arguments.shard)?);
     }
     let (start, mut worst, mut not_dressed, mut failed) = (Instant::now(), None::<Failure>, 0, 0);
+    let mut graphics = Graphics::default();
     for (i, job) in jobs.iter().enumerate() {
         if arguments.progress || output::is_watched() {
             let (name, so_far) = (&job.name, start.elapsed().as_secs_f64());
             output::complain(&format!("{} of {}: {name}, after {so_far:.1} s", i + 1, jobs.len()));
         }
         let begun = Begun::now();
-        let done = interrupt::check().and_then(|()| dressed(job, arguments));
+        let done = interrupt::check().and_then(|()| dressed(job, arguments, &mut graphics));
         if let Err(signal @ Failure::Signal(_)) = done {
             output::complain(&format!("{i} of {} are done; --resume goes on from there", jobs.len()));
             return Err(signal);
@@ -119,10 +121,10 @@ pub fn batch(arguments: &Dress) -> Result<(), Failure> {
 }
 
 /// Dresses one project. A panic counts as its failure, so that the projects after it are still dressed.
-fn dressed(job: &Job, arguments: &Dress) -> Result<Done, Failure> {
+fn dressed(job: &Job, arguments: &Dress, graphics: &mut Graphics) -> Result<Done, Failure> {
     let own = job.entry.arguments(arguments, &job.folder)?;
     let words = || Failure::Internal("internal error, see above".to_owned());
-    let done = catch_unwind(AssertUnwindSafe(|| dress_one(&job.entry.project, &job.folder, &own)));
+    let done = catch_unwind(AssertUnwindSafe(|| dress_one(&job.entry.project, &job.folder, &own, graphics)));
     done.unwrap_or_else(|_| Err(words()))
 }
 

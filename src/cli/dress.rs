@@ -5,6 +5,7 @@ use std::path::Path;
 use crate::cli::arguments::Dress;
 use crate::cli::dress_one::{Done, dress_one};
 use crate::cli::failure::Failure;
+use crate::cli::graphics::Graphics;
 use crate::cli::{batch, output};
 
 /// Dresses one project, or several as a batch.
@@ -12,7 +13,8 @@ pub fn dress(arguments: &Dress) -> Result<(), Failure> {
     let ([project], None) = (&arguments.projects[..], &arguments.list) else {
         return batch::batch(arguments);
     };
-    let Done { verdict, report, resumed, note } = dress_one(project, &arguments.out, arguments)?;
+    let Done { verdict, report, resumed, note } =
+        dress_one(project, &arguments.out, arguments, &mut Graphics::default())?;
     output::say(&match (arguments.json, resumed) {
         (true, _) => report,
         (false, false) => verdict.summary(),

@@ -6,6 +6,7 @@ use std::time::Instant;
 
 use crate::cli::arguments::Dress;
 use crate::cli::failure::Failure;
+use crate::cli::graphics::Graphics;
 use crate::cli::made_from::made_from;
 use crate::cli::seconds::{Begun, Seconds};
 use crate::cli::verdict::Verdict;
@@ -26,8 +27,13 @@ pub struct Done {
     pub note: Option<String>,
 }
 
-/// Dresses `project` into `folder`. With --resume a result that is already there is left.
-pub fn dress_one(project: &Path, folder: &Path, arguments: &Dress) -> Result<Done, Failure> {
+/// Dresses `project` into `folder`, and draws it with `graphics`. With --resume a result that is already there is left.
+pub fn dress_one(
+    project: &Path,
+    folder: &Path,
+    arguments: &Dress,
+    graphics: &mut Graphics,
+) -> Result<Done, Failure> {
     let start = Begun::now();
     let made_from = made_from(project, arguments)?;
     if arguments.resume
@@ -41,6 +47,9 @@ pub fn dress_one(project: &Path, folder: &Path, arguments: &Dress) -> Result<Don
     output::make_folder(&arguments.out)?;
     let mut session = run::opened(input.project, project)?;
     seconds.load = start.seconds();
+    if !arguments.no_picture {
+        graphics.open();
+    }
     if let Some(path) = &arguments.record {
         let file = File::create(path).map_err(|e| Failure::file(path, e))?;
         session.recorder().also_to(file).map_err(|e| Failure::file(path, e))?;
@@ -66,7 +75,7 @@ pub fn dress_one(project: &Path, folder: &Path, arguments: &Dress) -> Result<Don
         path.parent().filter(|to| *to == folder).map_or(Ok(()), output::make_folder)?;
         project_file::save(path, &session.project()).map_err(|e| input::project_failure(path, e))?;
     }
-    let picture = (!arguments.no_picture).then_some(&arguments.picture);
+    let picture = (!arguments.no_picture).then_some((&arguments.picture, graphics));
     let mut report = report::report(&mut session, &input.name, picture, seconds)?;
     (report.inputs, report.made_from) = (input.files, Some(made_from));
     report.finish(folder, start)?;

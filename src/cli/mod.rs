@@ -16,6 +16,7 @@ mod files;
 mod fit;
 mod formats;
 mod generate;
+mod graphics;
 mod help;
 mod import;
 mod input;

@@ -6,6 +6,7 @@ use serde::Serialize;
 
 use crate::cli::arguments;
 use crate::cli::failure::Failure;
+use crate::cli::graphics::Graphics;
 use crate::cli::report;
 use crate::cli::seconds::{Begun, Seconds};
 use crate::cli::{files, input, interrupt, output, run};
@@ -72,7 +73,9 @@ pub fn replay(arguments: &arguments::Replay) -> Result<(), Failure> {
     if let Some(folder) = &arguments.out {
         let seconds = Seconds { replay: Some(start.seconds()), ..Seconds::default() };
         let name = files::name_of(path);
-        let mut report = report::report(replay.session(), &name, Some(&arguments.picture), seconds)?;
+        let mut graphics = Graphics::default();
+        let picture = Some((&arguments.picture, &mut graphics));
+        let mut report = report::report(replay.session(), &name, picture, seconds)?;
         report.inputs = vec![path.display().to_string()];
         report.finish(folder, start)?;
     }

@@ -8,7 +8,7 @@ use serde::Serialize;
 use crate::body::Surface;
 use crate::cli::arguments::PictureOptions;
 use crate::cli::failure::Failure;
-use crate::cli::picture::Artist;
+use crate::cli::graphics::Graphics;
 use crate::cli::seconds::{Begun, Seconds};
 use crate::cli::verdict::{FILE_NAME, PICTURE_NAME, Verdict};
 use crate::cli::{formats, interrupt, output, run};
@@ -149,7 +149,7 @@ impl std::fmt::Display for PairLengths {
 pub fn report(
     session: &mut Session,
     name: &str,
-    picture: Option<&PictureOptions>,
+    picture: Option<(&PictureOptions, &mut Graphics)>,
     mut seconds: Seconds,
 ) -> Result<Report, Failure> {
     session.update();
@@ -168,7 +168,8 @@ pub fn report(
     }
     let start = Instant::now();
     interrupt::check()?;
-    let drawn = picture.map_or_else(|| Ok(Err("--no-picture".to_owned())), |picture| draw(session, picture));
+    let none = || Ok(Err("--no-picture".to_owned()));
+    let drawn = picture.map_or_else(none, |(options, graphics)| draw(session, options, graphics));
     let pictures_left_out = match drawn? {
         Ok(png) => {
             files.push((PICTURE_NAME, png));
@@ -238,8 +239,12 @@ fn still_moving() -> Fault {
 }
 
 /// Draws view.png; the inner error says why there is no picture when there is no graphics adapter.
-fn draw(session: &Session, options: &PictureOptions) -> Result<Result<Vec<u8>, String>, Failure> {
-    match Artist::new().and_then(|mut artist| artist.png(session, options)) {
+fn draw(
+    session: &Session,
+    options: &PictureOptions,
+    graphics: &mut Graphics,
+) -> Result<Result<Vec<u8>, String>, Failure> {
+    match graphics.png(session, options) {
         Ok(png) => Ok(Ok(png)),
         Err(Failure::Graphics(words)) => {
             output::complain(&format!("view.png left out: {words}"));

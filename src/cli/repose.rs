@@ -7,6 +7,7 @@ use std::time::Instant;
 use crate::body::pose::anatomy::JointAngle;
 use crate::cli::arguments::{InputOptions, Repose};
 use crate::cli::failure::Failure;
+use crate::cli::graphics::Graphics;
 use crate::cli::report::Report;
 use crate::cli::seconds::{Begun, Seconds};
 use crate::cli::{dress_one, files, formats, input, interrupt, output, report, run};
@@ -34,6 +35,8 @@ pub fn repose(arguments: &Repose) -> Result<(), Failure> {
     let mut seconds = Seconds { load: start.seconds(), ..Seconds::default() };
     dress_first(&mut session, arguments, &mut seconds)?;
     let dressed = session.project();
+    let mut graphics = Graphics::default();
+    graphics.open();
     let (mut failures, all) = (Vec::new(), poses.len());
     for (i, (pose, from)) in poses.into_iter().enumerate() {
         let path = Path::new(&from);
@@ -44,7 +47,8 @@ pub fn repose(arguments: &Repose) -> Result<(), Failure> {
         }
         let name = format!("{} on {}", input.name, files::name_of(path));
         let carried = one(&mut session, pose, path, arguments, seconds.clone());
-        let mut report = report::report(&mut session, &name, Some(&arguments.picture), carried?)?;
+        let mut report =
+            report::report(&mut session, &name, Some((&arguments.picture, &mut graphics)), carried?)?;
         report.inputs = input.files.iter().cloned().chain([from.clone()]).collect();
         report.finish(&folder, start)?;
         let verdict = report.verdict()?;

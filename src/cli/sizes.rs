@@ -8,6 +8,7 @@ use crate::cli::arguments::{Dress, InputOptions, SizeOptions, Sizes};
 use crate::cli::dress_one::{Done, dress_one};
 use crate::cli::failure::Failure;
 use crate::cli::fit::{Pictures, dressed};
+use crate::cli::graphics::Graphics;
 use crate::cli::size_report::SizeReport;
 use crate::cli::{files, input, interrupt, output, run};
 use crate::geometry::words::Words;
@@ -31,10 +32,11 @@ pub fn sizes(arguments: &Sizes) -> Result<(), Failure> {
     output::make_folder(&arguments.out)?;
     let mut worn: Vec<(String, Outfit)> = Vec::new();
     let mut report = SizeReport::new(&input.name, pattern, arguments.sizes.is_none());
+    let mut graphics = Graphics::default();
     for (i, name) in names.iter().enumerate() {
         interrupt::check()?;
         let folder = arguments.out.join(folder_name(&names[..i], name));
-        let (size, outfit) = in_size(arguments, pattern, name, &folder)?;
+        let (size, outfit) = in_size(arguments, pattern, name, &folder, &mut graphics)?;
         if !arguments.json {
             output::say(&size.words());
         }
@@ -94,12 +96,14 @@ fn in_size(
     pattern: &Pattern,
     name: &str,
     folder: &Path,
+    graphics: &mut Graphics,
 ) -> Result<(SizeFit, Option<Outfit>), Failure> {
     let graded = graded(pattern, name).map_err(|why| Failure::input(&arguments.project, why))?;
     let mut size = SizeFit::cut(pattern, name, &graded);
     size.folder = folder.file_name().map(|folder| folder.to_string_lossy().into_owned());
     let saved = folder.join("dressed.toile");
-    match dress_one(&arguments.project, folder, &dress_arguments(arguments, name, folder, &saved)) {
+    let own = dress_arguments(arguments, name, folder, &saved);
+    match dress_one(&arguments.project, folder, &own, graphics) {
         Ok(Done { verdict, note, .. }) => {
             note.iter().for_each(|words| output::complain(words));
             size.take(verdict.triangles(), verdict.strain_p99(), verdict.failed_check().map(Words::plain))

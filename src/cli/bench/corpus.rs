@@ -15,6 +15,7 @@ use crate::cli::bench::{median, say};
 use crate::cli::dress_one::dress_one;
 use crate::cli::failure::Failure;
 use crate::cli::generate::{Forms, SIZES_FILE, write_sizes};
+use crate::cli::graphics::Graphics;
 use crate::cli::{interrupt, output};
 use crate::draft::{Case, Kind};
 use crate::io::garmentcode;
@@ -90,13 +91,13 @@ pub fn corpus(arguments: &Bench) -> Result<(), Failure> {
         return Err(Failure::Usage("there is no garment in this shard".to_owned()));
     }
     let bench = Work::new(arguments)?;
-    let (mut forms, mut outcomes) = (Forms::default(), Vec::new());
+    let (mut forms, mut outcomes, mut graphics) = (Forms::default(), Vec::new(), Graphics::default());
     for (i, case) in cases.iter().enumerate() {
         interrupt::check()?;
         let design = corpus.design(case);
         let pattern = forms.pattern(case, &design)?;
         let bytes = garmentcode::write(&pattern).bytes;
-        let outcome = bench.outcome(case, design.kind, &case.name(&design), &bytes)?;
+        let outcome = bench.outcome((case, design.kind), &case.name(&design), &bytes, &mut graphics)?;
         let words = match outcome.is_clean() {
             true => "clean".to_owned(),
             false => outcome.reasons.join("; "),
@@ -134,7 +135,13 @@ impl<'a> Work<'a> {
     }
 
     /// Dresses one garment; its files are kept only if it fails.
-    fn outcome(&self, case: &Case, kind: Kind, name: &str, bytes: &[u8]) -> Result<Outcome, Failure> {
+    fn outcome(
+        &self,
+        (case, kind): (&Case, Kind),
+        name: &str,
+        bytes: &[u8],
+        graphics: &mut Graphics,
+    ) -> Result<Outcome, Failure> {
         let folder = self.folder.join(name);
         output::make_folder(&folder)?;
         let pattern = folder.join(format!("{name}.json"));
@@ -148,7 +155,7 @@ impl<'a> Work<'a> {
         dress.max_ticks = self.arguments.max_ticks.unwrap_or(dress.max_ticks);
         let command = command(name, case, self.arguments.max_ticks);
         let start = Instant::now();
-        let done = catch_unwind(AssertUnwindSafe(|| dress_one(&pattern, &folder, &dress)))
+        let done = catch_unwind(AssertUnwindSafe(|| dress_one(&pattern, &folder, &dress, graphics)))
             .unwrap_or_else(|_| Err(Failure::Internal("internal error, see above".to_owned())));
         let seconds = start.elapsed().as_secs_f64();
         let (exit_code, seconds, reasons) = match done {
