@@ -1,5 +1,7 @@
 //! When draped cloth rests, and how time slows down until it does.
 
+use glam::DVec3;
+
 use crate::cloth::{ClothState, GRAVITY};
 use crate::drape::garment::{DrapedGarment, Progress, TICK};
 use crate::drape::state::State;
@@ -65,11 +67,13 @@ impl DrapedGarment {
 
     /// Decides at the end of a tick whether the cloth rests.
     pub(super) fn conclude(&mut self) {
-        let ComingToRest { quiet_ticks, down, .. } = COMING_TO_REST;
-        // Half way between what has come down and what falls freely, on a logarithmic scale.
-        let falls = self.progress.residual >= down.sqrt();
-        if self.resumes && self.progress.ticks == u64::from(quiet_ticks) && falls {
-            self.wake();
+        let quiet_ticks = u64::from(COMING_TO_REST.quiet_ticks);
+        if self.resumes && self.progress.ticks == quiet_ticks {
+            let span = TICK * self.pace;
+            let freely = GRAVITY.length() * span * span * quiet_ticks as f64;
+            if falls(&self.ways, &self.fixed.mass, freely) {
+                self.wake();
+            }
         }
         let (ticks, quiet, moves) = (self.progress.ticks, self.is_quiet(), self.quiet == 0);
         let sound = self.lacking == 0 && (self.crossings == 0 || self.is_tangled());
@@ -116,5 +120,32 @@ impl DrapedGarment {
             Progress { ticks: self.progress.ticks + 1, residual, speed, at_rest: false, restless: false };
         let still = speed * span < COMING_TO_REST.way && residual < COMING_TO_REST.residual;
         self.quiet = if still { self.quiet + 1 } else { 0 };
+    }
+}
+
+/// Whether cloth whose vertices, of `mass` kg, went these `ways` in a tick moves as a whole like what falls, by order of magnitude: what
+/// falls freely goes as far as `freely`, metres. What only trembles or stretches does not.
+fn falls(ways: &[DVec3], mass: &[f64], freely: f64) -> bool {
+    let way: DVec3 = ways.iter().zip(mass).map(|(way, m)| *way * *m).sum();
+    // Half way between what has come down and what falls freely, on a logarithmic scale.
+    way.length() / mass.iter().sum::<f64>() >= COMING_TO_REST.down.sqrt() * freely
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_trembles_is_told_from_what_falls() {
+        let (mass, freely) = ([0.1; 10], 0.002);
+        let ways =
+            |way: fn(usize) -> f64| [0, 1, 2, 3, 4, 5, 6, 7, 8, 9].map(|v| DVec3::Y * (0.002 * way(v)));
+        assert!(falls(&ways(|_| -1.0), &mass, freely), "all of it falls");
+        assert!(falls(&ways(|v| -f64::from(v < 5)), &mass, freely), "half of it falls");
+        assert!(
+            !falls(&ways(|v| if v % 2 == 0 { 3.0 } else { -3.0 }), &mass, freely),
+            "it trembles thrice as fast"
+        );
+        assert!(!falls(&ways(|v| -f64::from(v < 2)), &mass, freely), "a fifth of it falls");
     }
 }
