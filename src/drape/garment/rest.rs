@@ -20,7 +20,8 @@ struct ComingToRest {
     /// step leaves edges only as stiff as mass over the step squared, far softer than woven cloth, so cloth that hangs from a tight
     /// place is overstretched; shorter steps take that strain away.
     down: f64,
-    /// Ticks after which time is slowed down in any case, since cloth caught somewhere may tremble for ever.
+    /// Ticks after which time is slowed down in any case, since cloth caught somewhere may tremble for ever; and after which cloth
+    /// that has fallen off the body is left as it is.
     down_by: u64,
     /// Factor by which time slows down in each tick.
     slowing: f64,
@@ -82,10 +83,18 @@ impl DrapedGarment {
         }
         if self.small.hand.is_none() {
             let slowed = self.slow_down();
-            let is_left = ticks >= COMING_TO_REST.most_ticks;
+            let ComingToRest { down_by, most_ticks, .. } = COMING_TO_REST;
+            let is_left = ticks >= most_ticks || (ticks > down_by && self.has_fallen_off());
             self.progress.at_rest = (quiet && sound && !slowed) || is_left;
             self.progress.restless = is_left && moves;
         }
+    }
+
+    /// Whether all of the cloth falls below the body, where nothing will hold it any more.
+    fn has_fallen_off(&self) -> bool {
+        let lowest = self.collider.surface.bounds().0.y;
+        let is_held = self.floats || self.pinned.contains(&true);
+        !is_held && self.state.positions.iter().all(|x| x.y < lowest)
     }
 
     /// Lowers the time scale if it is time to. False where it did not change.
