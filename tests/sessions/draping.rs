@@ -9,7 +9,7 @@ use toile::cloth::{Corner, Fabric};
 use toile::drag::{DragMode, Ray};
 use toile::fit::{BodyIndex, Report, measure};
 use toile::geometry::crossings::{meetings, self_crossings};
-use toile::geometry::ids::PieceId;
+use toile::geometry::ids::{PieceId, PinId};
 use toile::geometry::mesh::TriMesh;
 use toile::geometry::shapes::cylinder;
 use toile::pattern::{EdgeRef, Seam, SpacePose};
@@ -55,6 +55,21 @@ fn measured(s: &Session) -> Report {
 fn mean_height(s: &Session) -> f64 {
     let positions = &s.snapshot().cloth.positions;
     positions.iter().map(|p| p.y).sum::<f64>() / positions.len() as f64
+}
+
+#[test]
+fn draped_cloth_that_was_opened_again_stays_as_it_lies_when_a_pin_is_taken_out() {
+    let mut s = on_top();
+    s.apply_alone(Command::SetDraping { on: true }).expect("draped");
+    run(&mut s, 1500);
+    let mut again = Session::new(s.project(), Runner::inline(Simulation::default()));
+    again.update();
+    let lying = again.snapshot().cloth.positions.clone();
+    again.apply_alone(Command::AddPin { piece: LEFT, at: DVec2::new(0.05, 0.1) }).expect("pinned");
+    run(&mut again, 30);
+    again.apply_alone(Command::DeletePin { pin: PinId(1) }).expect("pulled out");
+    run(&mut again, 30);
+    assert_eq!(again.snapshot().cloth.positions, lying, "relaxed without weight it would creep");
 }
 
 #[test]

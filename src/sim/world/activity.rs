@@ -4,6 +4,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 
 use crate::cloth::{ClothState, Garment};
+use crate::fit::Moved;
 use crate::geometry::ids::PieceId;
 use crate::pattern::Pattern;
 use crate::pattern::activity::Activity;
@@ -64,6 +65,9 @@ impl World {
         let held = self.held();
         if self.hold_draped(&held) {
             return;
+        }
+        if self.moved == Moved::Draped && self.dressing.is_none() {
+            return; // What was draped and is not touched since stays as it lies until it is draped on.
         }
         let stays: BTreeSet<u32> = held.iter().copied().collect();
         if before.iter().any(|v| !stays.contains(v)) {
