@@ -20,7 +20,7 @@ use toile::session::{BodyChoice, Command, Notice, Session, Settings};
 use toile::sim::{DrapeState, Runner, Simulation, Start, StartChoice, faults};
 use toile::wrap::Phase;
 
-use crate::common::{ball, cloth_hash, project, run, tube_project};
+use crate::common::{ball, cloth_hash, project, run, session, tube_project};
 
 const LEFT: PieceId = PieceId(1);
 const RIGHT: PieceId = PieceId(2);
@@ -55,6 +55,30 @@ fn measured(s: &Session) -> Report {
 fn mean_height(s: &Session) -> f64 {
     let positions = &s.snapshot().cloth.positions;
     positions.iter().map(|p| p.y).sum::<f64>() / positions.len() as f64
+}
+
+/// Whether the cloth is said to have slid down.
+fn is_told_to_slide(s: &Session) -> bool {
+    let snapshot = s.snapshot();
+    let (garment, cloth) = snapshot.drawn().expect("a garment");
+    let body = snapshot.body.as_ref().expect("a body");
+    let source = snapshot.source.as_ref().expect("a pattern");
+    let found = faults(&measured(s), source, garment, cloth, &BodyIndex::new(body), snapshot.lies());
+    found.iter().any(|fault| fault.problem.words.contains("slid down"))
+}
+
+#[test]
+fn wrapped_cloth_that_slides_down_when_it_is_draped_is_told() {
+    let mut s = session();
+    s.apply_alone(Command::Wrap).expect("wrapped");
+    run(&mut s, 3000);
+    let before = mean_height(&s);
+    s.apply_alone(Command::SetDraping { on: true }).expect("draped");
+    run(&mut s, 2);
+    assert!(!is_told_to_slide(&s), "it hangs on the side of the ball");
+    run(&mut s, 40);
+    assert!(mean_height(&s) < before - 0.25, "{} of {before}", mean_height(&s));
+    assert!(is_told_to_slide(&s));
 }
 
 #[test]

@@ -12,7 +12,7 @@ use crate::cloth::{ClothState, Garment, Skips};
 use crate::contact::Splits;
 use crate::drag::Ray;
 use crate::drape::{DrapedGarment, DrapedSettings, Undrapable};
-use crate::fit::Moved;
+use crate::fit::{Moved, tops};
 use crate::geometry::words::{Words, words};
 use crate::sim::protocol::DrapeState;
 use crate::sim::source::{ClothPlace, DrapeSource};
@@ -175,6 +175,10 @@ impl World {
         else {
             return Err(Undrapable(words!("there is no cloth on the body")));
         };
+        let hangs = self.dressing.is_some() || self.moved == Moved::Wrapped;
+        if hangs && !self.was_sewn && self.trials.is_none() {
+            self.hung_at = Some(tops(garment, &self.cloth).into());
+        }
         let garment = Arc::clone(self.active.as_ref().unwrap_or(garment));
         let skips = source.relax.skips;
         let worn = worn((garment, &self.cloth), Arc::clone(body), &draping.source, &held, skips)?;
