@@ -119,6 +119,23 @@ impl Adjacency {
         Self { edges, triangle_edges, across, edge_triangles, vertex_triangles, vertex_neighbours }
     }
 
+    /// For each vertex the first vertex of its connected component.
+    pub fn parts(&self) -> Vec<u32> {
+        let count = self.vertex_neighbours.len();
+        let mut parts = vec![u32::MAX; count];
+        let mut open = Vec::new();
+        for first in 0..count as u32 {
+            open.push(first);
+            while let Some(v) = open.pop() {
+                if parts[v as usize] == u32::MAX {
+                    parts[v as usize] = first;
+                    open.extend(self.vertex_neighbours.of(v));
+                }
+            }
+        }
+        parts
+    }
+
     /// One owner for every corner and edge: for each of `triangles` (those that this is the adjacency of) which corners (bits 0..3)
     /// and sides (bits 3..6, from that corner to the next) it owns.
     pub fn owned(&self, triangles: &[[u32; 3]]) -> Vec<u8> {

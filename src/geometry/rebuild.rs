@@ -40,7 +40,8 @@ impl Rebuild {
         let adjacency = Adjacency::new(mesh.positions.len(), &mesh.triangles);
         let weights: Vec<[f64; 3]> =
             (0..mesh.triangles.len()).map(|t| half_cotangents(mesh.corners(t))).collect();
-        let anchors = anchors(&adjacency);
+        let parts = adjacency.parts();
+        let anchors: Vec<u32> = (0..).zip(&parts).filter(|(v, part)| v == *part).map(|(v, _)| v).collect();
         let mut diagonal = vec![0.0; mesh.positions.len()];
         anchors.iter().for_each(|&v| diagonal[v as usize] = 1.0);
         let laplacian = Laplacian::new(mesh, &adjacency, &weights, 1.0, &diagonal)?;
@@ -172,29 +173,6 @@ fn half_cotangents(corners: [DVec3; 3]) -> [f64; 3] {
         let half = 0.5 * u.dot(v) / u.cross(v).length();
         if half.is_finite() { half.clamp(WEIGHTS[0], WEIGHTS[1]) } else { WEIGHTS[0] }
     })
-}
-
-/// The first vertex of each connected component of the mesh.
-fn anchors(adjacency: &Adjacency) -> Vec<u32> {
-    let count = adjacency.vertex_neighbours.len();
-    let mut seen = vec![false; count];
-    let mut found = Vec::new();
-    for first in 0..count as u32 {
-        if seen[first as usize] {
-            continue;
-        }
-        found.push(first);
-        seen[first as usize] = true;
-        let mut open = vec![first];
-        while let Some(v) = open.pop() {
-            for &w in adjacency.vertex_neighbours.of(v) {
-                if !std::mem::replace(&mut seen[w as usize], true) {
-                    open.push(w);
-                }
-            }
-        }
-    }
-    found
 }
 
 #[cfg(test)]

@@ -6,6 +6,7 @@
 mod calm;
 mod carry;
 pub mod clear;
+mod hanging;
 mod laid;
 mod lift;
 pub mod on_card;
@@ -26,6 +27,7 @@ use crate::contact::{Faces, Obstacle, Separation, separation};
 use crate::drape::contact::body::Collider;
 use crate::drape::forces::bending::Bending;
 use crate::drape::garment::calm::{calming, gentle};
+use crate::drape::garment::hanging::Hanging;
 use crate::drape::garment::laid::{ordered, shortest_sides, springs};
 use crate::drape::garment::lift::LIFTING;
 use crate::drape::garment::on_card::OnCard;
@@ -34,7 +36,7 @@ use crate::drape::garment::worked::{Worked, plates, weighted};
 use crate::drape::sheet::Sheet;
 use crate::drape::solver::advance::Advance;
 use crate::drape::solver::net::Spring;
-use crate::drape::solver::small_steps::{GrabConstraint, SmallSteps, stable_rate, substeps};
+use crate::drape::solver::small_steps::{GrabConstraint, SmallSteps, stable_rate};
 use crate::drape::solver::surroundings::Surroundings;
 use crate::drape::solver::ties::SewingSpring;
 use crate::drape::state::State;
@@ -100,6 +102,7 @@ pub struct Progress {
 struct Fixed {
     garment: Arc<Garment>,
     sheet: Sheet,
+    hanging: Hanging,
     /// Garment vertex of each simulated vertex: the draped ones, in an order in which neighbours are near in memory.
     vertices: Vec<u32>,
     /// Simulated vertex of each garment vertex; `u32::MAX` where it is not draped.
@@ -207,9 +210,7 @@ impl DrapedGarment {
         settings: DrapedSettings,
         sewn: Option<(&Garment, &[u32], usize)>,
     ) -> Result<Self, Undrapable> {
-        let laid: Vec<usize> = (0..garment.triangles.len())
-            .filter(|&t| garment.triangles[t].iter().all(|&v| cloth.mapped[v as usize]))
-            .collect();
+        let laid = laid_triangles(&garment, cloth);
         let (vertices, own) = ordered(&garment, &laid);
         let fabric = |t: usize| fabrics.get(&garment.triangle_pieces[t]).unwrap_or(default);
         let triangles = laid.iter().map(|&t| garment.triangles[t].map(|v| own[v as usize])).collect();
@@ -224,8 +225,8 @@ impl DrapedGarment {
         let most = |of: fn(&Fabric) -> f64| of_triangle.iter().map(|f| of(f)).fold(0.0, f64::max);
         let (thickness, damping) = (most(|f| f.thickness_m), most(|f| f.damping_per_s));
         let friction = (0..sheet.len() as u32).map(|v| beside(&sheet, v).friction).collect();
-        let hanging = || steps_a_tick(&positions, sheet.mean_edge(), settings.strain);
-        let count = sewn.map_or_else(hanging, |(.., substeps)| substeps);
+        let hanging = Hanging::new(&sheet, settings.strain);
+        let count = sewn.map_or_else(|| hanging.steps_a_tick(&positions), |(.., substeps)| substeps);
         let slow = stable_rate(TICK / count as f64, BENDING_DAMPING);
         let plates = plates(&garment, &own, sheet.len(), |v| beside(&sheet, v).bending);
         let bending = Bending::slower_than(slow, &mass, &sheet, |v| &plates[v as usize]);
@@ -266,6 +267,7 @@ impl DrapedGarment {
             fixed: Arc::new(Fixed {
                 garment,
                 sheet,
+                hanging,
                 vertices,
                 own,
                 bending,
@@ -460,6 +462,10 @@ impl DrapedGarment {
         let mut begun = match self.begun.take() {
             Some(begun) => begun,
             None => {
+                if !self.floats {
+                    // What began flat may hang down now.
+                    self.substeps = self.substeps.max(fixed.hanging.steps_a_tick(&self.state.positions));
+                }
                 let (span, steps) = (TICK * self.pace, self.steps_on_card());
                 let advance = Advance::new(span, steps.unwrap_or(self.substeps));
                 Box::new(Begun { span, before: self.state.clone(), advance, on_card: steps.is_some() })
@@ -536,6 +542,12 @@ struct Begun {
     on_card: bool,
 }
 
+/// Indices of the triangles of `garment` that are laid.
+fn laid_triangles(garment: &Garment, cloth: &ClothState) -> Vec<usize> {
+    let is_laid = |t: &usize| garment.triangles[*t].iter().all(|&v| cloth.mapped[v as usize]);
+    (0..garment.triangles.len()).filter(is_laid).collect()
+}
+
 /// Rest length (metres) of an edge between simulated vertices, whose garment vertices are `vertices`. Along a seam, or a future
 /// seam of `sewn`, it is the length of the shorter side. None where the edge is not one of the garment.
 fn shortest_lengths(
@@ -550,13 +562,6 @@ fn shortest_lengths(
         let [a, b] = ends.map(|v| names[v as usize]);
         sides.get(&[a.min(b), a.max(b)]).copied()
     }
-}
-
-/// Small steps in a tick that keep cloth at `positions`, with edges of `edge` metres, within `strain`.
-fn steps_a_tick(positions: &[DVec3], edge: f64, strain: f64) -> usize {
-    let (low, high) =
-        positions.iter().fold((f64::MAX, f64::MIN), |(low, high), p| (p.y.min(low), p.y.max(high)));
-    substeps(TICK, strain, GRAVITY.length(), (high - low).max(edge), edge)
 }
 
 /// Mass of each vertex, kg: a third of that of its triangles.
