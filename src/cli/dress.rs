@@ -6,6 +6,7 @@ use crate::cli::arguments::Dress;
 use crate::cli::dress_one::{Done, dress_one};
 use crate::cli::failure::Failure;
 use crate::cli::graphics::Graphics;
+use crate::cli::verdict::Verdict;
 use crate::cli::{batch, output};
 
 /// Dresses one project, or several as a batch.
@@ -22,7 +23,18 @@ pub fn dress(arguments: &Dress) -> Result<(), Failure> {
     });
     match verdict.failure() {
         Some(Failure::Faults { faults, .. }) => {
-            let then = note.into_iter().chain([advice(project, verdict.has_marks())]).collect();
+            // What was saved shows the faults as it is opened.
+            let (open, first): (&Path, &str) = match &arguments.save {
+                Some(saved) => (saved, ""),
+                None => (project, "after Dress or Wrap, "),
+            };
+            let advice = format!(
+                "{}: what to do: open it (toile {}); {first}Problems in the side panel shows the faults; {}",
+                project.display(),
+                open.display(),
+                remedy(&verdict)
+            );
+            let then = note.into_iter().chain([advice]).collect();
             Err(Failure::Faults { faults, then })
         }
         Some(failure) => Err(failure),
@@ -33,14 +45,13 @@ pub fn dress(arguments: &Dress) -> Result<(), Failure> {
     }
 }
 
-/// What to do about a garment that is not dressed.
-fn advice(project: &Path, has_marks: bool) -> String {
-    let project = project.display();
-    let change = match has_marks {
-        true => "paint the marks near them anew",
-        false => "paint marks there or place the pieces otherwise (Shift+B)",
-    };
-    format!(
-        "{project}: what to do: open it (toile {project}); after Dress or Wrap, Problems in the side panel shows the faults; {change}"
-    )
+/// What may help a garment that is not dressed.
+fn remedy(verdict: &Verdict) -> &'static str {
+    match (verdict.is_too_small(), verdict.has_marks()) {
+        (true, _) => {
+            "no marks help cloth that is too small: cut it larger, or name a smaller body (--body, --sizes)"
+        }
+        (false, true) => "paint the marks near them anew",
+        (false, false) => "paint marks there or place the pieces otherwise (Shift+B)",
+    }
 }

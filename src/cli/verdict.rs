@@ -6,7 +6,7 @@ use std::path::Path;
 use serde::{Deserialize, Deserializer, Serialize};
 
 use crate::cli::failure::Failure;
-use crate::fit::{Penetration, Seams, Strain, Tight};
+use crate::fit::{Causes, Penetration, Seams, Strain, Tight};
 use crate::pattern::Problem;
 use crate::sim::Start;
 use crate::wrap::MarkError;
@@ -31,6 +31,8 @@ pub struct Verdict {
     edges_through_body: usize,
     self_crossings: usize,
     strain: Strain,
+    #[serde(default, skip_serializing)]
+    strain_causes: Causes,
     /// The tightest place of the garment; None when it fits everywhere.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     tight: Option<Tight>,
@@ -121,6 +123,11 @@ impl Verdict {
     /// Whether the garment was put on by marks of its own.
     pub fn has_marks(&self) -> bool {
         self.start.is_none() && self.mark_error.points > 0
+    }
+
+    /// Whether it has faults, and is smaller than the body.
+    pub fn is_too_small(&self) -> bool {
+        !self.faults.is_empty() && self.strain_causes.too_small().is_some()
     }
 
     /// All faults with their places; none when the project is dressed.

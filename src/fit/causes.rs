@@ -42,6 +42,9 @@ impl Strained {
     }
 }
 
+/// Difference in girth above which it is told that the pattern is smaller than the body, metres.
+const TOO_SMALL: f64 = 0.01;
+
 /// A place where the pattern is smaller than the body.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Smaller {
@@ -85,6 +88,11 @@ impl Causes {
     /// Whether more than a hundredth of the garment's `edges` are strained because the piece is too small.
     pub fn is_tight(&self, edges: usize) -> bool {
         self.fit.edges * 100 > edges
+    }
+
+    /// Where the pattern is so much smaller than the body that this is told.
+    pub fn too_small(&self) -> Option<&Smaller> {
+        self.smaller.first().filter(|smaller| smaller.body - smaller.pattern > TOO_SMALL)
     }
 }
 

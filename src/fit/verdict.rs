@@ -8,9 +8,6 @@ use crate::geometry::words::{Words, decimal, words};
 /// Strain (99th percentile, gathers left out) above which the garment does not fit.
 const MOST_STRAIN: f64 = 0.25;
 
-/// Difference in girth above which a fault adds that the pattern is smaller than the body, metres.
-const TOO_SMALL: f64 = 0.01;
-
 /// Cloth or a seam counts as torn when more than one in this many edges is stretched to twice its length; fewer are slivers.
 const EDGES_PER_TEAR: usize = 1000;
 
@@ -53,9 +50,7 @@ impl Faults {
 
     /// Adds to the last fault that the pattern is too small: other marks or another start cannot mend that.
     fn fit(&mut self, report: &Report) {
-        let smaller = report.strain_causes.smaller.first();
-        let smaller = smaller.filter(|smaller| smaller.body - smaller.pattern > TOO_SMALL);
-        if let (Some(smaller), Some((problem, _))) = (smaller, self.0.last_mut()) {
+        if let (Some(smaller), Some((problem, _))) = (report.strain_causes.too_small(), self.0.last_mut()) {
             let words = std::mem::take(&mut problem.words);
             problem.words = words.and("; ", smaller.words());
         }

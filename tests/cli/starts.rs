@@ -59,6 +59,19 @@ fn where_no_start_is_clean_the_exit_code_and_the_report_say_so() {
 }
 
 #[test]
+fn what_is_too_small_is_not_to_be_marked_otherwise() {
+    let place = Place::new();
+    let done = place.ends(
+        1,
+        "dress sample:skirt --sizes sizes:adults --body-size xxl --no-picture --save big.toile --out out",
+    );
+    let advice = done.err.lines().find(|line| line.contains(": what to do: ")).expect("an advice");
+    for words in ["sample:skirt: ", "open it (toile big.toile); Problems", "cut it larger"] {
+        assert!(advice.contains(words), "{advice}");
+    }
+}
+
+#[test]
 fn a_start_that_cannot_be_begun_is_told() {
     let place = Place::with_ball();
     place.ends_with_words(3, "dress ball.toile --out out --start placement", "no piece is placed");

@@ -103,7 +103,7 @@ pub struct SizeOptions {
     /// are sizes:adults (xs to xxl) and sizes:children (98 to 164)
     #[arg(long, value_name = "CSV", requires = "body_size")]
     pub sizes: Option<PathBuf>,
-    /// Takes the mannequin in the size of this name in the table
+    /// Takes the mannequin in the size of this name in the table of --sizes, which may be sizes:adults
     #[arg(long, value_name = "NAME", requires = "sizes")]
     pub body_size: Option<String>,
 }
