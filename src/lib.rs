@@ -40,8 +40,8 @@
 //!   the viewer.
 //! - `geometry` and `render` use nothing of ours. `pattern` and `body` do not use each other.
 //! - `sim` never uses `session`: a request carries a garment source, never the document.
-//! - egui only in `ui`; wgpu only in `render`, `card` and `ui`; threads only in `sim::thread` (and rayon inside steps), and the one
-//!   that waits for signals in `cli::interrupt`.
+//! - egui only in `ui`; wgpu only in `render`, `card` and `ui`; threads only in `sim::thread` (and rayon inside steps, and beside
+//!   them in `cli::graphics`), and the one that waits for signals in `cli::interrupt`.
 //! - No clock, no unseeded randomness, no hash-map iteration in `session`, `sim` or below, nor in `marker` and `pack`.
 //! - Same input, same bits, on any number of threads.
 //! - What is tuned in `contact`, `relax`, `wrap`, `place`, `drape` and `repose` is little, and says why it is what it is.

@@ -79,6 +79,9 @@ fn wrapped_cloth_that_slides_down_when_it_is_draped_is_told() {
     run(&mut s, 40);
     assert!(mean_height(&s) < before - 0.25, "{} of {before}", mean_height(&s));
     assert!(is_told_to_slide(&s));
+    run(&mut s, 1200);
+    let fallen = drape(&s);
+    assert!(!fallen.runs && fallen.restless && fallen.ticks < 400, "it is left where it falls: {fallen:?}");
 }
 
 #[test]
