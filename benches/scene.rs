@@ -78,7 +78,7 @@ fn pictures(c: &mut Criterion) {
         Err(why) => return println!("no pictures: {why}"),
     };
     println!("drawn by {}", gpu.adapter_name);
-    let mut renderer = Renderer::new(&gpu);
+    let mut renderer = Renderer::new(&gpu).expect("a renderer");
     let body = drawn(&body, BODY, BODY, 0.0);
     // What a processor draws while things move.
     let draft = ((SIZE.as_vec2() * 0.8).as_uvec2(), Quality::Draft);

@@ -133,6 +133,7 @@ fn failure(error: RenderError) -> Failure {
         RenderError::NoAdapter(_)
         | RenderError::NoDevice { .. }
         | RenderError::Timeout(_)
+        | RenderError::NoDepthOfField(_)
         | RenderError::Device(_) => Failure::Graphics(words),
     }
 }

@@ -31,6 +31,9 @@ pub enum RenderError {
     /// The adapter reported an error.
     #[error("the graphics adapter reported an error: {0}")]
     Device(String),
+    /// The adapter cannot draw depth of field.
+    #[error("the graphics adapter {0} draws by OpenGL, which cannot draw depth of field: leave it out")]
+    NoDepthOfField(String),
     /// The picture could not be encoded.
     #[error("the picture could not be encoded: {0}")]
     Encode(#[from] image::ImageError),

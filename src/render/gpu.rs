@@ -26,6 +26,9 @@ pub struct Gpu {
     pub software: bool,
     /// Samples per pixel: 4, or 1 where the adapter does not support that.
     pub samples: u32,
+    /// Whether shaders can load depth. OpenGL's language has no such instruction: ambient occlusion is then left out, and depth of
+    /// field refused.
+    pub loads_depth: bool,
     /// Time after which a picture counts as failed.
     pub patience: Duration,
 }
@@ -59,6 +62,7 @@ impl Gpu {
             samples: if can(COLOUR) && can(DEPTH) { 4 } else { 1 },
             adapter_name: format!("{} ({})", info.name, info.backend),
             software: info.device_type == wgpu::DeviceType::Cpu,
+            loads_depth: info.backend != wgpu::Backend::Gl,
             device,
             queue,
             patience: PATIENCE,
@@ -85,10 +89,29 @@ impl Gpu {
         buffer
     }
 
+    /// Does `work`; what the device reports meanwhile is an error.
+    pub(super) fn checked<T>(&self, work: impl FnOnce() -> Result<T, RenderError>) -> Result<T, RenderError> {
+        let filters =
+            [wgpu::ErrorFilter::OutOfMemory, wgpu::ErrorFilter::Validation, wgpu::ErrorFilter::Internal];
+        let scopes = filters.map(|filter| self.device.push_error_scope(filter));
+        let done = work();
+        // Scopes end in the order opposite to that in which they began.
+        let errors = scopes.into_iter().rev().filter_map(|scope| pollster::block_on(scope.pop()));
+        match errors.map(|e| one_line(&e.to_string())).reduce(|all, e| format!("{all}; {e}")) {
+            Some(words) => Err(RenderError::Device(words)),
+            None => done,
+        }
+    }
+
     /// Longest side of a texture, pixels.
     pub fn max_side(&self) -> u32 {
         self.device.limits().max_texture_dimension_2d
     }
+}
+
+/// The lines of a message in one.
+fn one_line(words: &str) -> String {
+    words.lines().map(str::trim).filter(|line| !line.is_empty()).collect::<Vec<_>>().join(" ")
 }
 
 /// The limits requested of an adapter: no optional features, and the largest textures and buffers it offers.

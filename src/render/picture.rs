@@ -21,7 +21,7 @@ impl Studio {
     /// Opens the best graphics adapter available.
     pub fn new() -> Result<Self, RenderError> {
         let gpu = Gpu::headless()?;
-        let renderer = Renderer::new(&gpu);
+        let renderer = Renderer::new(&gpu)?;
         Ok(Self { gpu, renderer, target: None })
     }
 

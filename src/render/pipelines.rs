@@ -17,8 +17,8 @@ pub(super) struct Pipelines {
     pub(super) shadow: wgpu::RenderPipeline,
     pub(super) depth: wgpu::RenderPipeline,
     pub(super) depth_ground: wgpu::RenderPipeline,
-    pub(super) hollows: wgpu::RenderPipeline,
-    pub(super) blur: wgpu::RenderPipeline,
+    /// Ambient occlusion and its blur; None where shaders cannot load depth.
+    pub(super) hollows: Option<[wgpu::RenderPipeline; 2]>,
     finished: Pictured,
     /// Pipelines for drafts; made when the first draft is drawn.
     draft: Option<Pictured>,
@@ -75,8 +75,6 @@ impl Pipelines {
         let make = Maker { gpu, frame: &frame_layout };
         let mesh = make.module(&shaders::mesh());
         let depth = make.module(&shaders::depth());
-        let hollows = make.module(&shaders::hollows());
-        let blur = make.module(&shaders::blur());
         let meshes = Some(mesh_vertices());
         Self {
             shadow: make.pipeline(Pass {
@@ -96,16 +94,7 @@ impl Pipelines {
                 depth: Some(NEARER),
                 ..Pass::new(&depth, "depth_ground_vertex")
             }),
-            hollows: make.pipeline(Pass {
-                extra: &[Some(&hollows_layout)],
-                fragment: Some(("hollows_fragment", Some(HOLLOWS.into()))),
-                ..Pass::new(&hollows, "whole_vertex")
-            }),
-            blur: make.pipeline(Pass {
-                extra: &[Some(&blur_layout)],
-                fragment: Some(("blur_fragment", Some(HOLLOWS.into()))),
-                ..Pass::new(&blur, "whole_vertex")
-            }),
+            hollows: gpu.loads_depth.then(|| occlusion(&make, &hollows_layout, &blur_layout)),
             finished: Pictured::finished(&make, gpu.samples, &light_layout, &material_layout),
             draft: None,
             lens: None,
@@ -147,6 +136,23 @@ impl Pipelines {
             Quality::Draft => self.draft.as_ref().unwrap_or(&self.finished),
         }
     }
+}
+
+/// The pipelines of ambient occlusion and of its blur.
+fn occlusion(
+    make: &Maker<'_>,
+    hollows: &wgpu::BindGroupLayout,
+    blur: &wgpu::BindGroupLayout,
+) -> [wgpu::RenderPipeline; 2] {
+    let passes =
+        [(shaders::hollows(), "hollows_fragment", hollows), (shaders::blur(), "blur_fragment", blur)];
+    passes.map(|(shader, fragment, inputs)| {
+        make.pipeline(Pass {
+            extra: &[Some(inputs)],
+            fragment: Some((fragment, Some(HOLLOWS.into()))),
+            ..Pass::new(&make.module(&shader), "whole_vertex")
+        })
+    })
 }
 
 impl LensPipelines {

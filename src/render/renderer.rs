@@ -34,7 +34,14 @@ struct Bound {
 
 impl Renderer {
     /// Creates the pipelines and the shadow map.
-    pub fn new(gpu: &Gpu) -> Self {
+    ///
+    /// # Errors
+    /// Where the adapter cannot, such as one that does not take a shader.
+    pub fn new(gpu: &Gpu) -> Result<Self, RenderError> {
+        gpu.checked(|| Ok(Self::unchecked(gpu)))
+    }
+
+    fn unchecked(gpu: &Gpu) -> Self {
         let side = if gpu.software { 1024 } else { 2048 };
         let usage = wgpu::TextureUsages::RENDER_ATTACHMENT | wgpu::TextureUsages::TEXTURE_BINDING;
         Self {
@@ -54,6 +61,9 @@ impl Renderer {
     }
 
     /// Draws `scene` on `target`. The work is submitted to the device; reading the target waits for it.
+    ///
+    /// # Errors
+    /// Where the device reports one, or the adapter cannot hold the scene or draw depth of field that `look` asks for.
     pub fn draw(
         &mut self,
         gpu: &Gpu,
@@ -62,7 +72,24 @@ impl Renderer {
         look: &Look,
         target: &OffscreenTarget,
     ) -> Result<(), RenderError> {
-        let scope = gpu.device.push_error_scope(wgpu::ErrorFilter::OutOfMemory);
+        if gpu.loads_depth {
+            return gpu.checked(|| self.draw_unchecked(gpu, scene, camera, look, target));
+        }
+        if look.lens.is_some() && target.quality == Quality::Finished {
+            return Err(RenderError::NoDepthOfField(gpu.adapter_name.clone()));
+        }
+        let look = Look { occlusion: 0.0, ..*look };
+        gpu.checked(|| self.draw_unchecked(gpu, scene, camera, &look, target))
+    }
+
+    fn draw_unchecked(
+        &mut self,
+        gpu: &Gpu,
+        scene: &Scene,
+        camera: &Camera,
+        look: &Look,
+        target: &OffscreenTarget,
+    ) -> Result<(), RenderError> {
         let frame = Frame::new(camera, scene, look, &target.part);
         let wire = look.wire.then(|| Wire::new(look.drawn_per_pixel, frame.wire_lift()));
         let last = std::mem::take(&mut self.meshes);
@@ -71,8 +98,8 @@ impl Renderer {
         let mut encoder = gpu.device.create_command_encoder(&Default::default());
         if let Some(half) = &target.half {
             self.draw_shadow_map(&mut encoder, &bound);
-            if look.occlusion > 0.0 {
-                self.draw_hollows(gpu, &mut encoder, &bound, target, half);
+            if let Some(pipelines) = self.pipelines.hollows.as_ref().filter(|_| look.occlusion > 0.0) {
+                self.draw_hollows(gpu, &mut encoder, &bound, target, (half, pipelines));
             }
         }
         if target.quality == Quality::Draft {
@@ -87,10 +114,7 @@ impl Renderer {
             lens.blur(gpu, &mut encoder, with, &bound.frame, (defocus, bound.ground), target);
         }
         gpu.queue.submit([encoder.finish()]);
-        match pollster::block_on(scope.pop()) {
-            Some(e) => Err(RenderError::Device(e.to_string())),
-            None => Ok(()),
-        }
+        Ok(())
     }
 
     fn bind(
@@ -168,7 +192,7 @@ impl Renderer {
         encoder: &mut wgpu::CommandEncoder,
         bound: &Bound,
         target: &OffscreenTarget,
-        half: &HalfSize,
+        (half, [hollow, blurred]): (&HalfSize, &[wgpu::RenderPipeline; 2]),
     ) {
         let view = wgpu::BindingResource::TextureView;
         let hollows = bind(gpu, &self.pipelines.hollows_layout, &[view(&half.depth), view(&half.normals)]);
@@ -183,10 +207,9 @@ impl Renderer {
             pass.set_pipeline(&self.pipelines.depth);
             self.draw_meshes(&mut pass, false, |mesh| !mesh.is_open());
         }
-        for (label, pipeline, inputs, output) in [
-            ("hollows", &self.pipelines.hollows, &hollows, &half.rough_hollows),
-            ("blur", &self.pipelines.blur, &blur, &half.hollows),
-        ] {
+        for (label, pipeline, inputs, output) in
+            [("hollows", hollow, &hollows, &half.rough_hollows), ("blur", blurred, &blur, &half.hollows)]
+        {
             let mut pass = begin(encoder, label, Some((output, None)), None);
             pass.set_bind_group(0, &bound.frame, &[]);
             pass.set_bind_group(1, inputs, &[]);

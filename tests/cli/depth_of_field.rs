@@ -1,6 +1,6 @@
 //! Depth of field of pictures.
 
-use crate::program::{Place, adapter_required};
+use crate::program::{Place, adapter_required, ended};
 
 #[test]
 fn a_lens_blurs_what_is_out_of_focus() {
@@ -39,4 +39,26 @@ fn no_other_lens_is_accepted() {
     }
     refused("--focus 2", "--f-number <NUMBER>");
     assert_eq!(place.names(""), ["ball.toile"]);
+}
+
+#[test]
+fn opengl_draws_all_but_depth_of_field_and_says_so() {
+    let place = Place::with_ball();
+    let draw = |options: &str| {
+        let task = format!("render ball.toile {options} -o opengl.png --size 120x120");
+        ended(place.command(&task).env("WGPU_BACKEND", "gl").output().expect("the program starts"))
+    };
+    let plain = draw("");
+    if plain.code == 5 && plain.err.contains("no graphics adapter was found") {
+        println!("no OpenGL: its pictures not tested");
+        return;
+    }
+    assert_eq!(plain.code, 0, "{plain:#?}");
+    assert!(!plain.err.contains("graphics:"), "{}", plain.err);
+    let picture = image::open(place.path("opengl.png")).expect("a picture").to_rgb8();
+    let [middle, corner] = [(60, 60), (2, 2)].map(|(x, y)| picture.get_pixel(x, y));
+    assert!(middle != corner, "a ball before the background: {middle:?}");
+    let blurred = draw("--f-number 1.4");
+    assert_eq!(blurred.code, 5, "{blurred:#?}");
+    assert!(blurred.err.contains("draws by OpenGL, which cannot draw depth of field"), "{}", blurred.err);
 }

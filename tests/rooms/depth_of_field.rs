@@ -156,7 +156,7 @@ fn drafts_are_sharp() {
         Err(RenderError::NoAdapter(why)) => return println!("skipped: no graphics adapter ({why})"),
         Err(other) => panic!("{other}"),
     };
-    let mut renderer = Renderer::new(&gpu);
+    let mut renderer = Renderer::new(&gpu).expect("a renderer");
     let scene = stripes_and_edge();
     let target = OffscreenTarget::new(&gpu, SIZE, Quality::Draft).expect("a target");
     let [sharp, also] = [even(), through(OPEN, even())].map(|look| {

@@ -151,6 +151,8 @@ pub struct FrameContext {
     pub sight: Sight,
     /// Whether there is an environment map to go back to.
     pub keeps_environment: bool,
+    /// The graphics adapter can draw depth of field.
+    pub blurs: bool,
     /// Whether the bar that rotates the environment map is shown.
     pub rotating: bool,
     /// Whether the bar of the aperture is shown.
@@ -184,7 +186,7 @@ impl FrameContext {
 
     /// The reason to show if `need` of `action` is not met; None when it is met.
     fn lacks(&self, need: Need, action: Action) -> Option<&'static str> {
-        let picked = &self.picked;
+        let (picked, mark) = (&self.picked, self.selected.map(|(_, place)| place));
         let (is_there, words) = match need {
             Need::Demo => (self.demo, "No demo is shown"),
             Need::RecentFile => return self.lacks_file(action),
@@ -219,12 +221,8 @@ impl FrameContext {
             ),
             Need::Marks => (self.marks[0] + self.marks[1] > 0, "There are no marks"),
             Need::Mark => (self.selected.is_some(), "No mark is selected: click one"),
-            Need::NotFirstMark => {
-                (self.selected.is_none_or(|(_, place)| place.number > 1), "It is the first")
-            }
-            Need::NotLastMark => {
-                (self.selected.is_none_or(|(_, place)| place.number < place.count), "It is the last")
-            }
+            Need::NotFirstMark => (mark.is_none_or(|mark| mark.number > 1), "It is the first"),
+            Need::NotLastMark => (mark.is_none_or(|mark| mark.number < mark.count), "It is the last"),
             Need::Pins => (self.pins > 0, "There are no pins"),
             Need::Comparison => (self.difference.is_some(), "Nothing is shown beside: compare first"),
             Need::KeptEnvironment => {
@@ -240,6 +238,7 @@ impl FrameContext {
                 !self.parallel,
                 "In parallel projection everything is sharp: leave it first (View › Parallel projection)",
             ),
+            Need::Blurring => (self.blurs, "The adapter draws by OpenGL, which cannot blur"),
             Need::DepthOfField => (self.sight.lens.is_some(), "Depth of field is off: switch it on first"),
             Need::Selection => (self.selected.is_some() || picked.deletable, "Nothing is selected"),
             Need::PickedPiece => (picked.pieces > 0, "No piece is selected"),

@@ -94,6 +94,8 @@ pub enum Need {
     EnvironmentMap,
     /// The projection is perspective.
     Perspective,
+    /// The graphics adapter can draw depth of field.
+    Blurring,
     /// What is out of focus is blurred.
     DepthOfField,
     /// Something that can be deleted is selected.

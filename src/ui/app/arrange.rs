@@ -14,7 +14,7 @@ use crate::ui::actions::picked::Picked;
 use crate::ui::actions::{PATTERN_TOOLS, Tool};
 use crate::ui::app::App;
 use crate::ui::app::focus_round::Bar;
-use crate::ui::body_pane;
+use crate::ui::body_pane::{self, Graphics};
 use crate::ui::language::{said, say, tr};
 use crate::ui::look::theme::Palette;
 use crate::ui::panels::context::PanelContext;
@@ -223,6 +223,7 @@ impl App {
             keymap: Arc::clone(&self.preferences.keymap),
             recent: Arc::clone(self.shell.recent.files()),
             sight: self.shell.sight,
+            blurs: self.scene_pane.graphics.as_ref().is_none_or(Graphics::blurs),
             keeps_environment: self.preferences.lighting.environment.is_some(),
             rotating: self.shell.environment.is_rotated,
             sets_aperture: self.shell.sets_aperture,

@@ -4,6 +4,7 @@ use crate::render::{Lens, Projection};
 use crate::ui::actions::Action;
 use crate::ui::actions::asks::{Ask, Asks};
 use crate::ui::app::App;
+use crate::ui::body_pane::Graphics;
 use crate::ui::language::fields::slider;
 use crate::ui::language::tr;
 use crate::ui::preferences::depth_of_field::FNumber;
@@ -14,9 +15,10 @@ impl App {
         self.shell.sight.lens.map(|lens| lens.f_number)
     }
 
-    /// Takes the lens of the body pane from the preferences.
+    /// Takes the lens of the body pane from the preferences, if the adapter can draw what it blurs.
     pub(in crate::ui) fn focus_lens(&mut self) {
-        self.shell.sight.lens = self.preferences.depth_of_field.lens();
+        let blurs = self.scene_pane.graphics.as_ref().is_none_or(Graphics::blurs);
+        self.shell.sight.lens = self.preferences.depth_of_field.lens().filter(|_| blurs);
         self.shell.sets_aperture &= self.shell.sight.lens.is_some();
     }
 

@@ -134,11 +134,16 @@ fn same<T>(a: &Option<Arc<T>>, b: &Option<Arc<T>>) -> bool {
     }
 }
 
+fn able(renderer: &mut Result<Renderer, String>) -> Result<&mut Renderer, RenderError> {
+    renderer.as_mut().map_err(|why| RenderError::Device(why.clone()))
+}
+
 /// The renderer of the body pane, on egui's device.
 pub struct Graphics {
     state: egui_wgpu::RenderState,
     gpu: Gpu,
-    renderer: Renderer,
+    /// The renderer, or why the adapter has none.
+    renderer: Result<Renderer, String>,
     target: Option<(OffscreenTarget, TextureId)>,
     drawn: Option<Key>,
     /// Number of pictures rendered.
@@ -157,7 +162,7 @@ impl Graphics {
     /// A renderer on the device that egui draws with.
     pub fn new(state: egui_wgpu::RenderState) -> Self {
         let gpu = Gpu::from_parts(&state.adapter, state.device.clone(), state.queue.clone());
-        let renderer = Renderer::new(&gpu);
+        let renderer = Renderer::new(&gpu).map_err(|why| why.to_string());
         let lost = Arc::new(Mutex::new(None));
         let told = Arc::clone(&lost);
         state.device.on_uncaptured_error(Arc::new(|e| tracing::error!("graphics: {e}")));
@@ -182,6 +187,11 @@ impl Graphics {
         self.gpu.software
     }
 
+    /// Whether the adapter can draw depth of field.
+    pub fn blurs(&self) -> bool {
+        self.gpu.loads_depth
+    }
+
     /// The picture for `key`, rendered only when the key differs from the last one. `scene` builds the scene.
     pub fn picture(&mut self, key: Key, scene: impl FnOnce() -> Scene) -> Result<TextureId, RenderError> {
         // A lost device reports this only when it is polled.
@@ -199,7 +209,7 @@ impl Graphics {
                 Quality::Finished => key.look.focused(&key.camera, &scene),
                 Quality::Draft => key.look,
             };
-            self.renderer.draw(&self.gpu, &scene, &key.camera, &look, target)?;
+            able(&mut self.renderer)?.draw(&self.gpu, &scene, &key.camera, &look, target)?;
             self.pictures += 1;
             self.drawn = Some(key);
         }
@@ -215,7 +225,7 @@ impl Graphics {
         size: UVec2,
     ) -> Result<image::RgbaImage, RenderError> {
         let target = OffscreenTarget::new(&self.gpu, size, Quality::Finished)?;
-        self.renderer.draw(&self.gpu, scene, camera, look, &target)?;
+        able(&mut self.renderer)?.draw(&self.gpu, scene, camera, look, &target)?;
         let picture = target.read(&self.gpu)?;
         Ok(if look.cut_out { straightened(picture) } else { picture })
     }
@@ -234,7 +244,7 @@ impl Graphics {
 
     /// Draws the next tile of `picture` and waits for it.
     pub fn go_on(&mut self, picture: &mut FinePicture) -> Result<(), RenderError> {
-        picture.draw_next(&self.gpu, &mut self.renderer)
+        picture.draw_next(&self.gpu, able(&mut self.renderer)?)
     }
 
     fn target_of(&mut self, size: UVec2, quality: Quality) -> Result<TextureId, RenderError> {

@@ -26,6 +26,10 @@ pub(in crate::ui) fn reason(why: &RenderError) -> String {
             seconds = after.as_secs()
         ),
         RenderError::Device(reason) => say!("the graphics adapter reported an error: {reason}", reason),
+        RenderError::NoDepthOfField(adapter) => say!(
+            "the graphics adapter {adapter} draws by OpenGL, which cannot draw depth of field: leave it out",
+            adapter
+        ),
         RenderError::Encode(reason) => say!("the picture could not be encoded: {reason}", reason),
         RenderError::UnknownView(name) => say!("there is no view {name}", name),
     }
@@ -48,6 +52,7 @@ mod tests {
             RenderError::TooLarge { what: words(), limit: words() },
             RenderError::Timeout(Duration::from_secs(7)),
             RenderError::Device(words()),
+            RenderError::NoDepthOfField(words()),
             RenderError::Encode(image::ImageError::IoError(encode)),
             RenderError::UnknownView(words()),
         ] {

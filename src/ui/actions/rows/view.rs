@@ -206,7 +206,7 @@ pub const ROWS: &[Row] = &[
         "Depth of field",
         "Blur what is nearer or farther than the surface in the middle of the picture, as a lens does",
     )
-    .needs(&[Need::Perspective])
+    .needs(&[Need::Perspective, Need::Blurring])
     .in_demos(),
     row(
         "View › Theme",
