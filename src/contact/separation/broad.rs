@@ -1,5 +1,7 @@
 //! Broad phase: a bounding volume hierarchy over triangles whose boxes are kept in single precision, rounded outwards.
 
+use std::ops::Range;
+
 use glam::Vec3A;
 use rayon::prelude::*;
 
@@ -31,6 +33,12 @@ impl Around {
         Self { lower: self.lower - margin, upper: self.upper + margin }
     }
 
+    /// How far `inner`, which is in this box, is from its border at least, metres.
+    pub fn room_round(&self, inner: &Self) -> f64 {
+        let room = (inner.lower - self.lower).min(self.upper - inner.upper);
+        f64::from(room.min_element().next_down())
+    }
+
     pub fn contains(&self, other: &Self) -> bool {
         (self.lower.cmple(other.lower) & self.upper.cmpge(other.upper)).all()
     }
@@ -50,18 +58,14 @@ pub(super) struct Broad {
     items: Vec<Around>,
 }
 
-/// Two items whose boxes meet.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Meeting {
-    /// The first, as an index in the order of the leaves.
-    pub one: u32,
-    /// The second, of the same tree or of the other.
-    pub two: u32,
-    pub is_of_other: bool,
+/// Pairs for a parallel task, and the leaves among them.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Pairs {
+    /// Two items each, as indices in the order of the leaves.
+    pub met: Vec<[u32; 2]>,
+    /// The items of each leaf, one after the other, and how many of the pairs come before the leaf.
+    pub leaves: Vec<(Range<usize>, usize)>,
 }
-
-/// Pairs for a parallel task.
-pub(super) type Pairs = Vec<Meeting>;
 
 impl Broad {
     /// A hierarchy over boxes that stay.
@@ -105,24 +109,21 @@ impl Broad {
         }
     }
 
-    /// Every two items whose boxes meet, but those of which `passes_over` is true, and every item and item of `other`, in an order
-    /// that depends only on the shapes of the trees.
-    pub fn pairs(&self, other: Option<&Self>, passes_over: impl Fn(u32, u32) -> bool + Sync) -> Vec<Pairs> {
+    /// Every two items whose boxes meet, but those of which `passes_over` is true, and every leaf, in an order that depends only on
+    /// the shape of the tree.
+    pub fn pairs(&self, passes_over: impl Fn(u32, u32) -> bool + Sync) -> Vec<Pairs> {
         let count = self.nodes.len();
         let share = |share: usize| {
-            let (mut found, mut open) = (Pairs::new(), Vec::new());
+            let (mut found, mut open) = (Pairs::default(), Vec::new());
             for node in share * LEAST_SEARCHES..count.min((share + 1) * LEAST_SEARCHES) {
-                let node = node as u32;
-                self.pairs_below(node, &mut open, |one, two| {
+                self.pairs_below(node as u32, &mut open, |one, two| {
                     let items = [one, two].map(|at| self.tree.items[at as usize]);
                     if !passes_over(items[0], items[1]) {
-                        found.push(Meeting { one, two, is_of_other: false });
+                        found.met.push([one, two]);
                     }
                 });
-                if let (Some(other), true) = (other, self.tree.nodes[node as usize].is_leaf()) {
-                    self.pairs_with(node, other, |one, two| {
-                        found.push(Meeting { one, two, is_of_other: true })
-                    });
+                if self.tree.nodes[node].is_leaf() {
+                    found.leaves.push((self.range(node as u32), found.met.len()));
                 }
             }
             found
@@ -160,27 +161,24 @@ impl Broad {
         }
     }
 
-    /// Calls `found` for every item of `leaf` and item of `other` whose boxes meet.
-    fn pairs_with(&self, leaf: u32, other: &Self, mut found: impl FnMut(u32, u32)) {
-        if other.nodes.is_empty() {
+    /// Calls `found` for every item whose box meets `around`, as an index in the order of the leaves, which rises.
+    pub fn meeting(&self, around: &Around, mut found: impl FnMut(u32)) {
+        if self.nodes.is_empty() {
             return;
         }
-        let own = &self.nodes[leaf as usize];
         // The tree is halved at every level, so that no tree of 2³² items is deeper than this.
         let mut open = [0u32; 40];
         let mut count = 1;
         while count > 0 {
             count -= 1;
             let at = open[count];
-            if !other.nodes[at as usize].meets(own) {
+            if !self.nodes[at as usize].meets(around) {
                 continue;
             }
-            let node = &other.tree.nodes[at as usize];
+            let node = &self.tree.nodes[at as usize];
             if node.is_leaf() {
-                for m in other.range(at) {
-                    let ones = self.range(leaf).filter(|&k| self.items[k].meets(&other.items[m]));
-                    ones.for_each(|k| found(k as u32, m as u32));
-                }
+                let met = self.range(at).filter(|&m| self.items[m].meets(around));
+                met.for_each(|m| found(m as u32));
             } else {
                 (open[count], open[count + 1]) = (node.right, at + 1);
                 count += 2;
@@ -189,7 +187,7 @@ impl Broad {
     }
 
     /// The items of a leaf, as indices in the order of the leaves.
-    fn range(&self, leaf: u32) -> std::ops::Range<usize> {
+    fn range(&self, leaf: u32) -> Range<usize> {
         let node = &self.tree.nodes[leaf as usize];
         node.first as usize..(node.first + node.count) as usize
     }

@@ -3,6 +3,7 @@
 use rayon::prelude::*;
 
 use crate::contact::separation::Separation;
+use crate::contact::separation::approach::Approach;
 use crate::geometry::crossings::segment_meets_triangle;
 use crate::geometry::parallel::{LEAST_SEARCHES, LEAST_SHARE};
 
@@ -28,8 +29,13 @@ pub(super) struct Crossings {
 
 impl Crossings {
     /// Finds the intersections of the cloth at its anchors.
-    pub fn found(this: &Separation, is_inside: impl Fn(usize) -> bool + Sync) -> Self {
+    pub fn found(
+        this: &Separation,
+        approaches: &mut [Approach],
+        is_inside: impl Fn(usize) -> bool + Sync,
+    ) -> Self {
         let mut all = this.search(
+            approaches,
             |s, t, found: &mut Self| found.add_cloth(this, s, t),
             |s, t, found| found.add_obstacle(this, s, t),
         );

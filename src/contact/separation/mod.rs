@@ -10,6 +10,7 @@
 //!
 //! Features that intersect at a detection get no plane: they may separate.
 
+mod approach;
 mod beside;
 mod broad;
 mod candidates;
@@ -20,12 +21,14 @@ mod repulsion;
 mod tests;
 mod topology;
 
+use std::ops::Range;
 use std::sync::Arc;
 
 use glam::DVec3;
 use rayon::prelude::*;
 use serde::Serialize;
 
+use crate::contact::separation::approach::Approach;
 use crate::contact::separation::beside::{Beside, Group};
 use crate::contact::separation::candidates::Candidates;
 use crate::contact::separation::crossing::Crossings;
@@ -61,6 +64,8 @@ pub struct Separation {
     /// Rest lengths of the edges. Features that are joined by an edge keep less than the thickness.
     rest: RestLengths,
     candidates: Candidates,
+    /// Each triangle of the cloth before the obstacle, in the order in which candidates are searched; empty without an obstacle.
+    approaches: Vec<Approach>,
     beside: Beside,
     /// Positions of the vertices at the last detection (anchors), metres; empty before the first.
     anchors: Vec<DVec3>,
@@ -157,6 +162,7 @@ impl Separation {
             cloth,
             names,
             candidates: Candidates::default(),
+            approaches: Vec::new(),
             anchors: Vec::new(),
             reach: Vec::new(),
             placed: Vec::new(),
@@ -173,7 +179,7 @@ impl Separation {
     pub fn set_obstacle(&mut self, obstacle: Option<Arc<Obstacle>>) {
         self.obstacle = obstacle;
         self.anchors.clear();
-        self.candidates.forget();
+        self.approaches.clear();
         self.is_clean = false;
     }
 
@@ -205,14 +211,20 @@ impl Separation {
             .collect_into_vec(&mut self.placed);
         let box_of = |placed: &PlacedTriangle| grown(&placed.around, placed.farthest + self.thickness / 2.0);
         let boxes: Vec<Aabb> = self.placed.par_iter().with_min_len(LEAST_SHARE).map(box_of).collect();
-        let obstacle = self.obstacle.as_deref().map(|obstacle| &obstacle.broad);
         let (placed, beside) = (&self.placed, &self.beside);
-        let is_searched =
-            self.candidates.fit(&boxes, |t| placed[t].farthest, obstacle, |s, t| beside.are(s, t));
+        let is_searched = self.candidates.fit(&boxes, |t| placed[t].farthest, |s, t| beside.are(s, t));
         self.counters.searches += u64::from(is_searched);
-        let crossings = if self.is_clean { Crossings::default() } else { Crossings::found(self, is_inside) };
+        let mut approaches = std::mem::take(&mut self.approaches);
+        if self.obstacle.is_some() {
+            approaches.resize_with(self.placed.len(), Approach::unknown);
+        }
+        let crossings = match self.is_clean {
+            true => Crossings::default(),
+            false => Crossings::found(self, &mut approaches, is_inside),
+        };
         self.beside.see(&self.placed);
-        let found = self.gathered(&crossings);
+        let found = self.gathered(&mut approaches, &crossings);
+        self.approaches = approaches;
         let groups = found.iter().map(|found| found.groups).sum();
         self.beside.learn(groups, &self.placed, &self.anchors);
         self.crossings = crossings.count();
@@ -228,22 +240,34 @@ impl Separation {
     }
 
     /// Calls `look` for every two triangles of the cloth that may be near each other and are not neighbours, and `look_at_obstacle`
-    /// for every triangle of the cloth and triangle of the obstacle. The results come in an order that does not depend on threads.
+    /// for every triangle of the cloth and triangle of the obstacle that it may come to. The results come in an order that does not
+    /// depend on threads.
     fn search<T: Default + Send>(
         &self,
+        approaches: &mut [Approach],
         look: impl Fn(u32, u32, &mut T) + Sync,
         look_at_obstacle: impl Fn(u32, u32, &mut T) + Sync,
     ) -> Vec<T> {
-        self.candidates.search(
-            self.obstacle.as_deref().map(|obstacle| &obstacle.broad),
-            look,
-            look_at_obstacle,
-        )
+        let order = self.candidates.order();
+        let look_at_leaf = |leaf: Range<usize>, approaches: &mut [Approach], found: &mut T| {
+            let Some(obstacle) = self.obstacle.as_deref() else { return };
+            let mut near = Vec::new();
+            for (k, approach) in leaf.zip(approaches) {
+                let own = &self.placed[order[k] as usize];
+                if !approach.is_off(own) {
+                    approach.look(own, obstacle, |at| near.push((at, order[k])));
+                }
+            }
+            near.sort_by_key(|(at, _)| *at);
+            near.iter().for_each(|&(at, s)| look_at_obstacle(s, obstacle.broad.order()[at as usize], found));
+        };
+        self.candidates.search(approaches, look, look_at_leaf)
     }
 
-    fn gathered(&self, crossings: &Crossings) -> Vec<Found> {
+    fn gathered(&self, approaches: &mut [Approach], crossings: &Crossings) -> Vec<Found> {
         let mut found = self.search(
-            |s, t, found| {
+            approaches,
+            |s, t, found: &mut Found| {
                 let [own, other] = [s, t].map(|t| &self.placed[t as usize]);
                 let far = own.farthest + other.farthest + self.thickness;
                 if own.is_off(other, far) || other.is_off(own, far) {
@@ -313,9 +337,6 @@ impl Separation {
         let Some(obstacle) = self.obstacle.as_deref() else { return };
         let (own, other, topology) =
             (&self.placed[s as usize], &obstacle.placed[t as usize], &obstacle.topology);
-        if own.is_off(other, own.farthest) || other.is_off(own, own.farthest) {
-            return;
-        }
         for k in self.cloth.corners_of(s) {
             let (v, p, reach) = (own.vertices[k], own.corners[k], own.reach[k]);
             if holds(&other.around, p, reach) && !crossings.vertex_is_free_of_obstacle(v, t) {

@@ -98,6 +98,12 @@ impl PlacedTriangle {
         heights.iter().all(|height| *height > far) || heights.iter().all(|height| *height < -far)
     }
 
+    /// How far `other` is from this triangle's plane at least, metres; 0 where it is on both sides.
+    pub fn gap(&self, other: &Self) -> f64 {
+        let [a, b, c] = other.corners.map(|p| self.normal.dot(p) - self.height);
+        a.min(b).min(c).max(-a.max(b).max(c)).max(0.0)
+    }
+
     /// The vertices of side `k`.
     pub fn ends(&self, k: usize) -> [u32; 2] {
         [self.vertices[k], self.vertices[(k + 1) % 3]]
