@@ -210,15 +210,21 @@ fn a_run_is_paused_goes_on_and_is_made_by_steps() {
     assert!(!drape(&s).runs);
 }
 
-/// On the front of the ball it would fall; pins hold it, bit for bit where they were.
-#[test]
-fn pins_hold_and_a_hand_pulls() {
+/// The two patches on the front of the ball, held by three pins.
+fn hung_by_pins() -> Session {
     let mut s = Session::new(project(), Runner::inline(Simulation::default()));
     s.apply_alone(Command::Wrap).expect("wrapped");
     run(&mut s, 3000);
     for (piece, x) in [(LEFT, 0.0), (LEFT, 0.25), (RIGHT, 0.25)] {
         s.apply_alone(Command::AddPin { piece, at: DVec2::new(x, 0.3) }).expect("pinned");
     }
+    s
+}
+
+/// On the front of the ball it would fall; pins hold it, bit for bit where they were.
+#[test]
+fn pins_hold_and_a_hand_pulls() {
+    let mut s = hung_by_pins();
     s.update();
     let held = |s: &Session| -> Vec<DVec3> {
         let snapshot = s.snapshot();
@@ -242,6 +248,27 @@ fn pins_hold_and_a_hand_pulls() {
     s.apply_alone(Command::Release).expect("let go");
     run(&mut s, 1100);
     assert!(!drape(&s).runs && held(&s) == before);
+}
+
+/// In the longer steps of unslowed time it would sink under its own weight as soon as it is touched.
+#[test]
+fn draped_cloth_that_is_taken_and_held_still_stays() {
+    let mut s = hung_by_pins();
+    s.apply_alone(Command::SetDraping { on: true }).expect("draped");
+    run(&mut s, 1300);
+    assert!(!drape(&s).runs, "it rests");
+    let before = s.snapshot().cloth.positions.clone();
+    s.apply_alone(Command::Grab { piece: RIGHT, at: DVec2::new(0.2, 0.02), mode: DragMode::Surface })
+        .expect("taken");
+    run(&mut s, 60);
+    let farthest = |s: &Session| {
+        let now = &s.snapshot().cloth.positions;
+        now.iter().zip(&before).map(|(x, y)| x.distance(*y)).fold(0.0, f64::max)
+    };
+    assert!(farthest(&s) < 0.001, "held: {} m", farthest(&s));
+    s.apply_alone(Command::Release).expect("let go");
+    run(&mut s, 1300);
+    assert!(!drape(&s).runs && farthest(&s) < 0.001, "let go: {} m", farthest(&s));
 }
 
 /// From one side of the ball to the other within a tick, and back: what it holds stays on its side of everything.
@@ -272,12 +299,7 @@ fn a_hand_that_jumps_takes_cloth_through_nothing() {
 
 /// A knit that its own weight would stretch, held by three pins.
 fn hung(strain: f64) -> Report {
-    let mut s = Session::new(project(), Runner::inline(Simulation::default()));
-    s.apply_alone(Command::Wrap).expect("wrapped");
-    run(&mut s, 3000);
-    for (piece, x) in [(LEFT, 0.0), (LEFT, 0.25), (RIGHT, 0.25)] {
-        s.apply_alone(Command::AddPin { piece, at: DVec2::new(x, 0.3) }).expect("pinned");
-    }
+    let mut s = hung_by_pins();
     s.apply_alone(Command::SetFabric { piece: None, fabric: Some("sweat-knit".to_owned()) }).expect("set");
     let settings = Settings { strain, ..s.document().settings };
     s.apply_alone(Command::SetSettings { settings }).expect("set");

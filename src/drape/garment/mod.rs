@@ -355,7 +355,7 @@ impl DrapedGarment {
         let weight: f64 = self.fixed.mass.iter().sum::<f64>() * GRAVITY.length();
         let target = self.state.positions[v];
         self.small.hand = Some(GrabConstraint { vertex: v as u32, target, stiffness: HAND, most: weight });
-        self.wake();
+        self.follow_hand();
     }
 
     /// Position of the dragged vertex, metres; None while nothing is dragged.
@@ -367,14 +367,14 @@ impl DrapedGarment {
     pub fn pull_to(&mut self, target: DVec3) {
         if let Some(hand) = &mut self.small.hand {
             hand.target = target;
-            self.wake();
+            self.follow_hand();
         }
     }
 
     /// Ends the drag.
     pub fn let_go(&mut self) {
         self.small.hand = None;
-        self.wake();
+        self.hold_otherwise();
     }
 
     /// Turns on friction for the garment's vertices `inner`: an inner layer, over which sewing springs pull the rest.
@@ -467,7 +467,7 @@ impl DrapedGarment {
                     self.substeps = self.substeps.max(fixed.hanging.steps_a_tick(&self.state.positions));
                 }
                 let (span, steps) = (TICK * self.pace, self.steps_on_card());
-                let advance = Advance::new(span, steps.unwrap_or(self.substeps));
+                let advance = Advance::new(span, self.finer(steps.unwrap_or(self.substeps)));
                 Box::new(Begun { span, before: self.state.clone(), advance, on_card: steps.is_some() })
             }
         };

@@ -114,7 +114,7 @@ impl DrapedGarment {
             Err(fault) => {
                 tracing::info!("this tick is draped by the processor: {fault}");
                 self.state = begun.before.clone();
-                begun.advance = Advance::new(begun.span, self.substeps);
+                begun.advance = Advance::new(begun.span, self.finer(self.substeps));
                 begun.on_card = false;
                 let lasts = matches!(fault, CardFault::Broken(_) | CardFault::Full);
                 self.card = (!lasts).then_some(OnCard { pause: PAUSE, ..card });

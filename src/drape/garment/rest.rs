@@ -66,10 +66,31 @@ impl DrapedGarment {
         if self.pace < 1.0 { self.resume() } else { self.wake() }
     }
 
+    /// Makes cloth move again that is in the hand. Once it has come down, time goes on half way between the slowest scale, at which
+    /// it would lag behind the hand, and unslowed time, but in steps as short as at the slowest: in longer ones it would sink.
+    pub(super) fn follow_hand(&mut self) {
+        if self.pace < 1.0 {
+            self.resume();
+            self.pace = COMING_TO_REST.slowest.sqrt();
+        } else {
+            self.wake();
+        }
+    }
+
+    /// The number of small steps of a tick that has `steps` of them while it is in no hand, see [`Self::follow_hand`].
+    pub(super) fn finer(&self, steps: usize) -> usize {
+        let longer = if self.small.hand.is_some() && self.pace < 1.0 {
+            self.pace / COMING_TO_REST.slowest
+        } else {
+            1.0
+        };
+        (steps as f64 * longer).ceil() as usize
+    }
+
     /// Decides at the end of a tick whether the cloth rests.
     pub(super) fn conclude(&mut self) {
         let quiet_ticks = u64::from(COMING_TO_REST.quiet_ticks);
-        if self.resumes && self.progress.ticks == quiet_ticks {
+        if self.resumes && self.small.hand.is_none() && self.progress.ticks == quiet_ticks {
             let span = TICK * self.pace;
             let freely = GRAVITY.length() * span * span * quiet_ticks as f64;
             if falls(&self.ways, &self.fixed.mass, freely) {
