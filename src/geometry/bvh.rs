@@ -37,11 +37,6 @@ impl Aabb {
         self.lower.cmple(other.upper).all() && self.upper.cmpge(other.lower).all()
     }
 
-    /// The largest gap along an axis between this box and `other`, metres: they are at least so far apart. 0 where they meet.
-    pub fn gap(&self, other: &Self) -> f64 {
-        (self.lower - other.upper).max(other.lower - self.upper).max_element().max(0.0)
-    }
-
     /// Whether the segment between `ends` may meet this box. Conservative: never false where they meet; also true
     /// where the gap between them is smaller than rounding errors can be.
     pub fn meets_segment(&self, ends: [DVec3; 2]) -> bool {

@@ -35,27 +35,45 @@ impl Approach {
 
     /// Calls `look` for every triangle of the obstacle that the triangle may come to within its reach, as an index in the order of the
     /// leaves, which rise, and measures its distance.
-    pub fn look(&mut self, own: &PlacedTriangle, obstacle: &Obstacle, mut look: impl FnMut(u32)) {
+    pub fn look(&mut self, own: &PlacedTriangle, obstacle: &Obstacle, look: &mut dyn FnMut(u32)) {
+        self.gather(own, obstacle);
+        let (now, boxes, order) = (Around::of(&own.around), obstacle.broad.items(), obstacle.broad.order());
+        let far = own.farthest * (1.0 + SLACK) + SLACK;
+        self.at = own.corners;
+        // Nothing else is as near. Of what is about twice as far as the triangle may go it is enough to know that; the box is a little
+        // larger than that, as it is rounded.
+        self.least = self.around.room_round(&now).min(1.9 * far);
+        let round = now.grown((2.0 * far) as f32);
+        for &at in self.near.iter().filter(|&&at| round.meets(&boxes[at as usize])) {
+            let mut gap = now.gap(&boxes[at as usize]);
+            if gap <= far {
+                let other = &obstacle.placed[order[at as usize] as usize];
+                gap = gap.max(own.gap(other));
+                if gap <= far {
+                    gap = gap.max(other.gap(own));
+                }
+                if gap <= far {
+                    look(at);
+                }
+            }
+            self.least = self.least.min(gap);
+        }
+    }
+
+    /// Calls `look` for every triangle of the obstacle that the triangle may meet where it is, as [`Self::look`] does.
+    pub fn touch(&mut self, own: &PlacedTriangle, obstacle: &Obstacle, look: &mut dyn FnMut(u32)) {
+        self.gather(own, obstacle);
+        let (now, boxes) = (Around::of(&own.around), obstacle.broad.items());
+        self.near.iter().filter(|&&at| now.meets(&boxes[at as usize])).for_each(|&at| look(at));
+    }
+
+    /// Searches the tree if the triangle may leave the box in which what is near is known.
+    fn gather(&mut self, own: &PlacedTriangle, obstacle: &Obstacle) {
         let now = Around::of(&grown(&own.around, own.farthest));
-        let margin = MARGIN * own.farthest;
         if !self.around.contains(&now) {
-            self.around = now.grown(margin as f32);
+            self.around = now.grown((MARGIN * own.farthest) as f32);
             self.near.clear();
             obstacle.broad.meeting(&self.around, |at| self.near.push(at));
-        }
-        self.at = own.corners;
-        // Nothing else is as near.
-        self.least = self.around.room_round(&Around::of(&own.around));
-        let far = own.farthest * (1.0 + SLACK) + SLACK;
-        let order = obstacle.broad.order();
-        for &at in &self.near {
-            let other = &obstacle.placed[order[at as usize] as usize];
-            let gap = own.around.gap(&other.around);
-            let gap = if gap > far + margin { gap } else { gap.max(own.gap(other)).max(other.gap(own)) };
-            self.least = self.least.min(gap);
-            if gap <= far {
-                look(at);
-            }
         }
     }
 }
@@ -96,7 +114,8 @@ mod tests {
             let own = PlacedTriangle::new(&topology, &x, &[0.002, 0.001, 5e-4], 0);
             // What a box and planes do not tell apart.
             let near = |other: &PlacedTriangle| {
-                let gap = own.around.gap(&other.around).max(own.gap(other)).max(other.gap(&own));
+                let boxes = [&own.around, &other.around].map(Around::of);
+                let gap = boxes[0].gap(&boxes[1]).max(own.gap(other)).max(other.gap(&own));
                 gap <= own.farthest
             };
             let all: Vec<u32> =
@@ -107,7 +126,7 @@ mod tests {
                 continue;
             }
             let mut found = Vec::new();
-            approach.look(&own, &obstacle, |at| found.push(obstacle.broad.order()[at as usize]));
+            approach.look(&own, &obstacle, &mut |at| found.push(obstacle.broad.order()[at as usize]));
             found.sort_unstable();
             assert_eq!(found, all, "step {step}");
             met += usize::from(!all.is_empty());

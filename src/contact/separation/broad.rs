@@ -39,6 +39,13 @@ impl Around {
         f64::from(room.min_element().next_down())
     }
 
+    /// The largest gap along an axis between this box and `other`, metres: what is in them is at least so far apart. At most 0 where
+    /// they meet.
+    pub fn gap(&self, other: &Self) -> f64 {
+        let gap = (self.lower - other.upper).max(other.lower - self.upper);
+        f64::from(gap.max_element().next_down())
+    }
+
     pub fn contains(&self, other: &Self) -> bool {
         (self.lower.cmple(other.lower) & self.upper.cmpge(other.upper)).all()
     }

@@ -35,7 +35,7 @@ impl Crossings {
         is_inside: impl Fn(usize) -> bool + Sync,
     ) -> Self {
         let mut all = this.search(
-            approaches,
+            (approaches, Approach::touch),
             |s, t, found: &mut Self| found.add_cloth(this, s, t),
             |s, t, found| found.add_obstacle(this, s, t),
         );

@@ -126,6 +126,9 @@ impl Counters {
     }
 }
 
+/// Calls the last argument for those triangles of an obstacle that count as near a triangle of the cloth.
+type Nearness = fn(&mut Approach, &PlacedTriangle, &Obstacle, &mut dyn FnMut(u32));
+
 /// Result of a search: planes with their vertices, and pairs within the thickness.
 #[derive(Default)]
 struct Found {
@@ -240,33 +243,33 @@ impl Separation {
     }
 
     /// Calls `look` for every two triangles of the cloth that may be near each other and are not neighbours, and `look_at_obstacle`
-    /// for every triangle of the cloth and triangle of the obstacle that it may come to. The results come in an order that does not
+    /// for every triangle of the cloth and triangle of the obstacle that is `near`. The results come in an order that does not
     /// depend on threads.
     fn search<T: Default + Send>(
         &self,
-        approaches: &mut [Approach],
+        (approaches, near): (&mut [Approach], Nearness),
         look: impl Fn(u32, u32, &mut T) + Sync,
         look_at_obstacle: impl Fn(u32, u32, &mut T) + Sync,
     ) -> Vec<T> {
         let order = self.candidates.order();
         let look_at_leaf = |leaf: Range<usize>, approaches: &mut [Approach], found: &mut T| {
             let Some(obstacle) = self.obstacle.as_deref() else { return };
-            let mut near = Vec::new();
+            let mut met = Vec::new();
             for (k, approach) in leaf.zip(approaches) {
                 let own = &self.placed[order[k] as usize];
                 if !approach.is_off(own) {
-                    approach.look(own, obstacle, |at| near.push((at, order[k])));
+                    near(approach, own, obstacle, &mut |at| met.push((at, order[k])));
                 }
             }
-            near.sort_by_key(|(at, _)| *at);
-            near.iter().for_each(|&(at, s)| look_at_obstacle(s, obstacle.broad.order()[at as usize], found));
+            met.sort_by_key(|(at, _)| *at);
+            met.iter().for_each(|&(at, s)| look_at_obstacle(s, obstacle.broad.order()[at as usize], found));
         };
         self.candidates.search(approaches, look, look_at_leaf)
     }
 
     fn gathered(&self, approaches: &mut [Approach], crossings: &Crossings) -> Vec<Found> {
         let mut found = self.search(
-            approaches,
+            (approaches, Approach::look),
             |s, t, found: &mut Found| {
                 let [own, other] = [s, t].map(|t| &self.placed[t as usize]);
                 let far = own.farthest + other.farthest + self.thickness;
