@@ -1,11 +1,14 @@
 //! Files and built-in samples named on the command line.
 
+use std::io::{Error, ErrorKind};
 use std::path::Path;
 
 use crate::cli::failure::Failure;
 use crate::draft::SIZE_TABLES;
 use crate::geometry::names;
+use crate::geometry::words::words;
 use crate::io::{FILE_BYTES, rul};
+use crate::session::samples::Sample;
 use crate::session::whole_file;
 
 /// Prefix of the names of built-in samples.
@@ -63,10 +66,19 @@ pub fn rules_beside(path: &Path) -> Result<Option<Vec<u8>>, Failure> {
     names.find(|name| name.is_file()).map(|name| read(&name)).transpose()
 }
 
-/// Reads the whole file at `path`.
+/// Reads the whole file at `path`. Where there is none, but a sample of that name, the failure says so.
 pub fn read(path: &Path) -> Result<Vec<u8>, Failure> {
     whole_file::read(path, FILE_BYTES).map_err(|error| match error.kind() {
-        std::io::ErrorKind::FileTooLarge => Failure::Limit(format!("{}: {error}", path.display())),
+        ErrorKind::FileTooLarge => Failure::Limit(format!("{}: {error}", path.display())),
+        ErrorKind::NotFound => Failure::file(path, meant(path).unwrap_or(error)),
         _ => Failure::file(path, error),
     })
+}
+
+/// The error of a file that is not there and is called like a sample.
+fn meant(path: &Path) -> Option<Error> {
+    let i = names::found(Sample::ALL.map(Sample::file_stem), path.to_str()?)?;
+    let sample = Sample::ALL[i].file_stem();
+    let words = words!("there is no such file or folder; the sample of this name is sample:{sample}", sample);
+    Some(whole_file::told(ErrorKind::NotFound, words))
 }

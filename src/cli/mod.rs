@@ -58,6 +58,8 @@ use tracing_subscriber::EnvFilter;
 
 use crate::cli::arguments::{Arguments, Report, ReportTask, Task};
 use crate::cli::failure::{Failure, PANIC};
+use crate::geometry::names;
+use crate::session::samples::Sample;
 use crate::session::whole_file;
 
 /// Runs the program. It never panics; failures are printed on standard error, and the exit code gives their kind.
@@ -155,10 +157,22 @@ fn is_word(path: &Path) -> bool {
 /// What to say of a first word that clap took for a project, where it is neither a command nor a file.
 fn misspelt(first: &OsStr) -> Option<String> {
     let word = first.to_str().filter(|word| !word.starts_with('-') && !Path::new(word).exists())?;
-    let commands = Arguments::command();
-    let names: Vec<&str> = commands.get_subcommands().map(clap::Command::get_name).collect();
-    (!names.contains(&word))
-        .then(|| format!("error: {word} is neither a command nor a file\n\ncommands: {}", names.join(", ")))
+    let arguments = Arguments::command();
+    let commands: Vec<&str> = arguments.get_subcommands().map(clap::Command::get_name).collect();
+    if commands.contains(&word) {
+        return None;
+    }
+    let sample = names::found(Sample::ALL.map(Sample::file_stem), word).map(|i| Sample::ALL[i].file_stem());
+    let meant = sample.map(|name| format!("sample:{name}")).or_else(|| nearest(word, &commands));
+    let asked = meant.map(|name| format!("; did you mean {name}?")).unwrap_or_default();
+    Some(format!("error: {word} is neither a command nor a file{asked}\n\ncommands: {}", commands.join(", ")))
+}
+
+/// The one of `names` that is spelt most like `word`; None where none is much like it.
+fn nearest(word: &str, names: &[&str]) -> Option<String> {
+    let likeness = |name: &&&str| strsim::jaro_winkler(word, name);
+    let nearest = names.iter().max_by(|a, b| likeness(a).total_cmp(&likeness(b)))?;
+    (likeness(&nearest) > 0.8).then(|| (*nearest).to_owned())
 }
 
 fn panic_words(panic: &std::panic::PanicHookInfo) -> String {

@@ -135,7 +135,11 @@ fn wrong_arguments_are_told() {
     place.ends_with_words(2, "dress", "PROJECT");
     place.ends_with_words(2, "dress ball.toile", "--out");
     place.ends_with_words(2, "dres ball.toile --out o", "dres is neither a command nor a file");
-    place.ends_with_words(2, "measur", "measur is neither a command nor a file");
+    place.ends_with_words(2, "dres ball.toile --out o", "; did you mean dress?");
+    place.ends_with_words(2, "measur", "measur is neither a command nor a file; did you mean measure?");
+    place.ends_with_words(2, "Gown", "neither a command nor a file; did you mean sample:gown?");
+    assert!(!place.ends(2, "xyzzy").err.contains("did you mean"));
+    place.ends_with_words(6, "dress gown --out o", "the sample of this name is sample:gown");
     place.ends_with_words(6, "measur.toile", "there is no such file");
     place.ends_with_words(2, "dress ball.toile --out o --view inside", "inside");
     place.ends_with_words(2, "dress ball.toile --out o --size 0x7", "0x7");
