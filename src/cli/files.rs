@@ -77,8 +77,7 @@ pub fn read(path: &Path) -> Result<Vec<u8>, Failure> {
 
 /// The error of a file that is not there and is called like a sample.
 fn meant(path: &Path) -> Option<Error> {
-    let i = names::found(Sample::ALL.map(Sample::file_stem), path.to_str()?)?;
-    let sample = Sample::ALL[i].file_stem();
+    let sample = Sample::named(path.to_str()?)?.file_stem();
     let words = words!("there is no such file or folder; the sample of this name is sample:{sample}", sample);
     Some(whole_file::told(ErrorKind::NotFound, words))
 }

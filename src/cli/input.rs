@@ -9,7 +9,6 @@ use crate::cli::arguments::{BodyFile, InputOptions, SizeOptions};
 use crate::cli::failure::Failure;
 use crate::cli::files::{MANNEQUIN, is_sample, name_of, read, sample_name, table_of_sizes};
 use crate::cli::{formats, output};
-use crate::geometry::names;
 use crate::geometry::polygon::signed_area;
 use crate::io::gltf;
 use crate::io::pattern_formats::{self, PatternFormat};
@@ -127,8 +126,7 @@ fn is_called_pattern(path: &Path) -> bool {
 }
 
 fn sample(path: &Path, name: &str) -> Result<Project, Failure> {
-    let found = names::found(Sample::ALL.map(Sample::file_stem), name).map(|i| Sample::ALL[i]);
-    let Some(sample) = found else {
+    let Some(sample) = Sample::named(name) else {
         let names = Sample::ALL.map(Sample::file_stem).join(", ");
         return Err(Failure::input(path, format!("there is no such sample; there are {names}")));
     };

@@ -58,7 +58,6 @@ use tracing_subscriber::EnvFilter;
 
 use crate::cli::arguments::{Arguments, Report, ReportTask, Task};
 use crate::cli::failure::{Failure, PANIC};
-use crate::geometry::names;
 use crate::session::samples::Sample;
 use crate::session::whole_file;
 
@@ -162,8 +161,9 @@ fn misspelt(first: &OsStr) -> Option<String> {
     if commands.contains(&word) {
         return None;
     }
-    let sample = names::found(Sample::ALL.map(Sample::file_stem), word).map(|i| Sample::ALL[i].file_stem());
-    let meant = sample.map(|name| format!("sample:{name}")).or_else(|| nearest(word, &commands));
+    let meant = Sample::named(word)
+        .map(|sample| format!("sample:{}", sample.file_stem()))
+        .or_else(|| nearest(word, &commands));
     let asked = meant.map(|name| format!("; did you mean {name}?")).unwrap_or_default();
     Some(format!("error: {word} is neither a command nor a file{asked}\n\ncommands: {}", commands.join(", ")))
 }

@@ -72,49 +72,37 @@ impl Renderer {
         look: &Look,
         target: &OffscreenTarget,
     ) -> Result<(), RenderError> {
-        if gpu.loads_depth {
-            return gpu.checked(|| self.draw_unchecked(gpu, scene, camera, look, target));
-        }
-        if look.lens.is_some() && target.quality == Quality::Finished {
+        if look.lens.is_some() && target.quality == Quality::Finished && !gpu.loads_depth {
             return Err(RenderError::NoDepthOfField(gpu.adapter_name.clone()));
         }
-        let look = Look { occlusion: 0.0, ..*look };
-        gpu.checked(|| self.draw_unchecked(gpu, scene, camera, &look, target))
-    }
-
-    fn draw_unchecked(
-        &mut self,
-        gpu: &Gpu,
-        scene: &Scene,
-        camera: &Camera,
-        look: &Look,
-        target: &OffscreenTarget,
-    ) -> Result<(), RenderError> {
-        let frame = Frame::new(camera, scene, look, &target.part);
-        let wire = look.wire.then(|| Wire::new(look.drawn_per_pixel, frame.wire_lift()));
-        let last = std::mem::take(&mut self.meshes);
-        self.meshes = upload(gpu, &self.pipelines, last, &scene.meshes, wire)?;
-        let bound = self.bind(gpu, &frame, scene, camera, look, target);
-        let mut encoder = gpu.device.create_command_encoder(&Default::default());
-        if let Some(half) = &target.half {
-            self.draw_shadow_map(&mut encoder, &bound);
-            if let Some(pipelines) = self.pipelines.hollows.as_ref().filter(|_| look.occlusion > 0.0) {
-                self.draw_hollows(gpu, &mut encoder, &bound, target, (half, pipelines));
+        let look = &Look { occlusion: if gpu.loads_depth { look.occlusion } else { 0.0 }, ..*look };
+        gpu.checked(|| {
+            let frame = Frame::new(camera, scene, look, &target.part);
+            let wire = look.wire.then(|| Wire::new(look.drawn_per_pixel, frame.wire_lift()));
+            let last = std::mem::take(&mut self.meshes);
+            self.meshes = upload(gpu, &self.pipelines, last, &scene.meshes, wire)?;
+            let bound = self.bind(gpu, &frame, scene, camera, look, target);
+            let mut encoder = gpu.device.create_command_encoder(&Default::default());
+            if let Some(half) = &target.half {
+                self.draw_shadow_map(&mut encoder, &bound);
+                if let Some(pipelines) = self.pipelines.hollows.as_ref().filter(|_| look.occlusion > 0.0) {
+                    self.draw_hollows(gpu, &mut encoder, &bound, target, (half, pipelines));
+                }
             }
-        }
-        if target.quality == Quality::Draft {
-            self.pipelines.prepare_drafts(gpu);
-        }
-        let lens = look.lens.filter(|_| target.quality == Quality::Finished);
-        let defocus = lens.and_then(|lens| lens.defocus(camera, target.part.whole));
-        self.lens = defocus.map(|_| LensBlur::for_target(self.lens.take(), gpu, target));
-        self.draw_picture(&mut encoder, &bound, look, wire, target);
-        if let Some((defocus, lens)) = defocus.zip(self.lens.as_ref()) {
-            let with = self.pipelines.lens(gpu);
-            lens.blur(gpu, &mut encoder, with, &bound.frame, (defocus, bound.ground), target);
-        }
-        gpu.queue.submit([encoder.finish()]);
-        Ok(())
+            if target.quality == Quality::Draft {
+                self.pipelines.prepare_drafts(gpu);
+            }
+            let lens = look.lens.filter(|_| target.quality == Quality::Finished);
+            let defocus = lens.and_then(|lens| lens.defocus(camera, target.part.whole));
+            self.lens = defocus.map(|_| LensBlur::for_target(self.lens.take(), gpu, target));
+            self.draw_picture(&mut encoder, &bound, look, wire, target);
+            if let Some((defocus, lens)) = defocus.zip(self.lens.as_ref()) {
+                let with = self.pipelines.lens(gpu);
+                lens.blur(gpu, &mut encoder, with, &bound.frame, (defocus, bound.ground), target);
+            }
+            gpu.queue.submit([encoder.finish()]);
+            Ok(())
+        })
     }
 
     fn bind(

@@ -6,7 +6,7 @@ use glam::DVec3;
 use crate::contact::separation::broad::Around;
 use crate::contact::separation::candidates::MARGIN;
 use crate::contact::separation::grown;
-use crate::contact::separation::topology::{Obstacle, PlacedTriangle, SLACK};
+use crate::contact::separation::topology::{Obstacle, PlacedTriangle, surely};
 
 /// A triangle of the cloth before the obstacle.
 #[derive(Clone, Debug)]
@@ -30,7 +30,7 @@ impl Approach {
     /// Whether the triangle cannot come to the obstacle within its reach.
     pub fn is_off(&self, own: &PlacedTriangle) -> bool {
         let moved = (0..3).map(|k| own.corners[k].distance_squared(self.at[k])).fold(0.0, f64::max).sqrt();
-        self.least - moved > own.farthest * (1.0 + SLACK) + SLACK
+        self.least - moved > surely(own.farthest)
     }
 
     /// Calls `look` for every triangle of the obstacle that the triangle may come to within its reach, as an index in the order of the
@@ -38,7 +38,7 @@ impl Approach {
     pub fn look(&mut self, own: &PlacedTriangle, obstacle: &Obstacle, look: &mut dyn FnMut(u32)) {
         self.gather(own, obstacle);
         let (now, boxes, order) = (Around::of(&own.around), obstacle.broad.items(), obstacle.broad.order());
-        let far = own.farthest * (1.0 + SLACK) + SLACK;
+        let far = surely(own.farthest);
         self.at = own.corners;
         // Nothing else is as near. Of what is about twice as far as the triangle may go it is enough to know that; the box is a little
         // larger than that, as it is rounded.

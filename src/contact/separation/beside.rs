@@ -5,7 +5,7 @@ use glam::DVec3;
 use rayon::prelude::*;
 
 use crate::contact::separation::features;
-use crate::contact::separation::topology::{PlacedTriangle, SLACK, Topology};
+use crate::contact::separation::topology::{PlacedTriangle, Topology, surely};
 use crate::geometry::parallel::LEAST_SUMS;
 
 /// Pairs of features of two neighbouring triangles: corners of the first against the second, or sides of both.
@@ -123,7 +123,7 @@ impl Beside {
             return false;
         }
         let [s, t] = group.triangles.map(|t| self.near[t as usize]);
-        f64::from(group.gap) > (s + t + thickness) * (1.0 + SLACK) + SLACK
+        f64::from(group.gap) > surely(s + t + thickness)
     }
 
     /// Counts the groups that a detection `looked` at; measures them anew where that is likely to save work.

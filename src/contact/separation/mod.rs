@@ -97,7 +97,7 @@ pub struct Separation {
 pub struct Counters {
     /// Number of detections.
     pub detections: u64,
-    /// Number of detections for which the trees were searched; for the others the pairs were known.
+    /// Number of detections for which the tree of the cloth was searched; for the others its pairs were known.
     pub searches: u64,
     /// Groups of features of neighbouring triangles that were not known to be too far apart.
     pub neighbours: u64,

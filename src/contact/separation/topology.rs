@@ -9,7 +9,12 @@ use crate::geometry::adjacency::Adjacency;
 use crate::geometry::bvh::Aabb;
 
 /// Rounding errors of heights and distances, metres and as a share.
-pub(super) const SLACK: f64 = 1e-9;
+const SLACK: f64 = 1e-9;
+
+/// What a distance has to exceed to be larger than `far` metres in spite of rounding errors.
+pub(super) fn surely(far: f64) -> f64 {
+    far * (1.0 + SLACK) + SLACK
+}
 
 /// The features of a mesh.
 #[derive(Clone, Debug)]
@@ -93,9 +98,7 @@ impl PlacedTriangle {
 
     /// Whether `other` is wholly on one side of this triangle's plane, farther from it than `far` metres.
     pub fn is_off(&self, other: &Self, far: f64) -> bool {
-        let far = far * (1.0 + SLACK) + SLACK;
-        let heights = other.corners.map(|p| self.normal.dot(p) - self.height);
-        heights.iter().all(|height| *height > far) || heights.iter().all(|height| *height < -far)
+        self.gap(other) > surely(far)
     }
 
     /// How far `other` is from this triangle's plane at least, metres; 0 where it is on both sides.

@@ -19,6 +19,7 @@ use std::sync::Arc;
 
 use crate::body::{Mannequin, Measurements, mannequin};
 use crate::draft::CHILDREN;
+use crate::geometry::names;
 use crate::pattern::Pattern;
 use crate::session::{BodyChoice, Document, Project};
 use crate::wrap::Marks;
@@ -154,6 +155,11 @@ impl Sample {
             Self::Cape => "Cape",
             Self::CreatureCloak => "Creature's cloak",
         }
+    }
+
+    /// The sample that is called `typed`, as [`names::found`] finds names.
+    pub fn named(typed: &str) -> Option<Self> {
+        names::found(Self::ALL.map(Self::file_stem), typed).map(|i| Self::ALL[i])
     }
 
     /// Name of its file in `assets/samples`, without `.toile`.
