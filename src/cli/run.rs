@@ -14,7 +14,7 @@ use crate::cli::{interrupt, output};
 use crate::cloth::Fabric;
 use crate::geometry::names;
 use crate::session::{Command, Dye, Notice, Project, Session};
-use crate::sim::{Runner, Simulation};
+use crate::sim::{Runner, Simulation, Trying};
 use crate::wrap::Phase;
 
 /// Stack of each worker thread, bytes: they also call graphics drivers, which need more than RUST_MIN_STACK may allow.
@@ -117,11 +117,12 @@ pub fn to_rest(session: &mut Session, max_ticks: u64, seconds: &mut Seconds) -> 
             let words = format!("the cloth still moves after {max_ticks} ticks (see --max-ticks)");
             return Err(Failure::Limit(words));
         }
-        let (phase, trying, posing) = (simulation.phase(), simulation.trying(), simulation.is_posing());
+        let (phase, result, posing) =
+            (simulation.phase(), simulation.result_in_work(), simulation.is_posing());
         let start = Instant::now();
         simulation.tick();
         let took = start.elapsed().as_secs_f64();
-        if let Some((.., number)) = trying {
+        if let Some(number) = result {
             let count = seconds.starts.len().max(number + 1);
             seconds.starts.resize(count, 0.0);
             seconds.starts[number] += took;
@@ -171,13 +172,17 @@ fn show_progress(simulation: &Simulation) {
         _ => "settling",
     };
     if simulation.ticks().is_multiple_of(8) {
-        let start = match simulation.trying() {
-            Some((start, true, _)) => format!("{start}, draped: "),
-            Some((start, false, _)) => format!("{start}: "),
-            None => String::new(),
-        };
-        output::progress(&format!("{start}{phase} {:.0} %", simulation.progress() * 100.0));
+        output::progress(&progress_words(simulation.trying(), phase, simulation.progress()));
     }
+}
+
+/// How far the work has come: `share` (0..=1) of it, over all starts while they are tried.
+fn progress_words(trying: Option<Trying>, phase: &str, share: f64) -> String {
+    let percent = (share * 100.0).floor();
+    let Some(Trying { start, draped, number }) = trying else { return format!("{phase} {percent:.0} %") };
+    let attempt = if number > 1 { format!(", attempt {number}") } else { String::new() };
+    let draped = if draped { ", draped" } else { "" };
+    format!("dressing {percent:.0} %{attempt}: {start}{draped}, {phase}")
 }
 
 #[cfg(test)]
@@ -187,6 +192,16 @@ mod tests {
     use std::time::Duration;
 
     use super::*;
+    use crate::sim::Start;
+
+    #[test]
+    fn progress_is_told_over_all_starts() {
+        let trying = |draped, number| Some(Trying { start: Start::Marks, draped, number });
+        assert_eq!(progress_words(trying(false, 1), "growing", 0.257), "dressing 25 %: marks, growing");
+        let second = progress_words(trying(true, 2), "settling", 0.5);
+        assert_eq!(second, "dressing 50 %, attempt 2: marks, draped, settling");
+        assert_eq!(progress_words(None, "growing", 1.0), "growing 100 %");
+    }
 
     static ENDED: AtomicUsize = AtomicUsize::new(0);
 

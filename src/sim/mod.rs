@@ -17,6 +17,6 @@ pub use protocol::{DrapeState, Event, Request, RequestKind, Snapshot};
 pub use runner::Runner;
 pub use simulation::Simulation;
 pub use source::{ClothPlace, DrapeSource, GarmentSource};
-pub use start::{AsBuilt, Start, StartChoice, Started, Tried};
+pub use start::{AsBuilt, Start, StartChoice, Started, Tried, Trying};
 pub use stats::Stats;
 pub use thread::SimThread;

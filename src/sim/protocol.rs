@@ -20,7 +20,7 @@ use crate::relax::RelaxSettings;
 use crate::repose::Outcome;
 use crate::sim::fault::{Fault, Lies};
 use crate::sim::source::{ClothPlace, DrapeSource, GarmentSource};
-use crate::sim::start::{Start, StartChoice, Started};
+use crate::sim::start::{StartChoice, Started, Trying};
 use crate::sim::stats::Stats;
 use crate::wrap::{Marks, Phase};
 
@@ -155,8 +155,8 @@ pub struct Snapshot {
     pub hung_at: Option<Arc<[f64]>>,
     /// Pieces are being sewn: `garment` then has open seams.
     pub is_sewing: bool,
-    /// While starts are tried: the present one, and whether it is being draped.
-    pub trying: Option<(Start, bool)>,
+    /// While starts are tried: the present one.
+    pub trying: Option<Trying>,
     /// Results of the starts that were tried; None once the cloth is dressed otherwise.
     pub started: Option<Arc<Started>>,
 }

@@ -10,7 +10,7 @@ use crate::geometry::words::{Words, words};
 use crate::sim::checkpoints::{Checkpoints, DEFAULT_CAPACITY};
 use crate::sim::fault::Fault;
 use crate::sim::protocol::{Event, Request, RequestKind, Snapshot};
-use crate::sim::start::Start;
+use crate::sim::start::Trying;
 use crate::sim::stats::Stats;
 use crate::sim::world::World;
 use crate::sim::world::posed::Then;
@@ -143,11 +143,14 @@ impl Simulation {
         self.world.phase()
     }
 
-    /// While starts are tried: the present one, whether it is being draped, and the number of its result, from 0.
-    pub fn trying(&self) -> Option<(Start, bool, usize)> {
-        let trials = self.world.trials.as_ref()?;
-        let (start, draped) = trials.now();
-        Some((start, draped, trials.count()))
+    /// While starts are tried: the present one.
+    pub fn trying(&self) -> Option<Trying> {
+        self.world.trials.as_ref().map(|trials| trials.shown())
+    }
+
+    /// While starts are tried: the number of the result that is being worked for, from 0.
+    pub fn result_in_work(&self) -> Option<usize> {
+        self.world.trials.as_ref().map(|trials| trials.count())
     }
 
     /// Whether the cloth is following its body to another pose.
@@ -155,7 +158,7 @@ impl Simulation {
         self.world.posing.is_some()
     }
 
-    /// Progress of growing and settling, 0..=1.
+    /// Progress of growing and settling, or over all starts while they are tried, 0..=1.
     pub fn progress(&self) -> f64 {
         self.world.progress()
     }
@@ -195,7 +198,7 @@ impl Simulation {
             was_sewn: world.was_sewn,
             hung_at: world.hung_at.clone(),
             is_sewing: world.sewing.is_some(),
-            trying: world.trials.as_ref().map(|trials| trials.now()),
+            trying: world.trials.as_ref().map(|trials| trials.shown()),
             started: world.started.clone(),
         }
     }

@@ -52,6 +52,16 @@ pub struct StartChoice {
     pub draped: bool,
 }
 
+/// The start that is being tried.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+pub struct Trying {
+    pub start: Start,
+    /// Whether it is being draped.
+    pub draped: bool,
+    /// Its number among those that were begun, from 1.
+    pub number: usize,
+}
+
 /// How a start uses the pose that the mannequin is built in.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]

@@ -66,7 +66,7 @@ fn what_turns_over_at_a_seam_is_first_sewn_from_its_placement() {
         let mut s = session(project);
         s.apply_alone(Command::Dress { choice: ANY }).expect("begun");
         s.update();
-        s.snapshot().trying.expect("a start").0
+        s.snapshot().trying.expect("a start").start
     };
     let (seam, hem) = (1, 0);
     assert_eq!([first(seam, 170.0, false), first(seam, -170.0, false)], [Start::Placement; 2]);

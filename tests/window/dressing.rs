@@ -61,6 +61,27 @@ fn esc_cancels_the_whole_run() {
     assert_eq!(app(&window).session().undo_label(), None);
 }
 
+/// Narrower than what it goes round, so that all starts are tried.
+#[test]
+fn the_progress_rises_from_start_to_start() {
+    let mut window = window_on(common::placed_project(0.15, 0.15), None);
+    begin(&mut window);
+    let start = Instant::now();
+    let (mut last, mut words) = (0, String::new());
+    while app(&window).session().snapshot().started.is_none() {
+        assert!(start.elapsed().as_secs() < 60, "it takes too long");
+        std::thread::sleep(Duration::from_millis(2));
+        window.run_steps(1);
+        let told = |part: &str| window.query_by_label_contains(part).and_then(|l| l.accesskit_node().value());
+        let Some(now) = told("By marks: ").or_else(|| told("From placement: ")) else { continue };
+        let before = now.split(" %").next().unwrap_or_default();
+        let percent: u32 = before.rsplit(' ').next().and_then(|n| n.parse().ok()).expect("a number");
+        assert!(percent >= last, "{words:?}, then {now:?}");
+        (last, words) = (percent, now);
+    }
+    assert!(last > 0 && words.contains("From placement: "), "the last was {words:?}");
+}
+
 #[test]
 fn the_key_of_dress_says_what_is_missing() {
     let mut window = window();

@@ -136,7 +136,7 @@ fn suggested_marks_are_written_for_whoever_wants_to_look() {
     let Some(mut window) = drawn_window(project, PLAIN) else { return };
     keep(&mut window, &folder, "dress-is-next");
     key(&mut window, Modifiers::COMMAND, Key::Enter);
-    wait(&mut window, "a start", |app| app.session().snapshot().trying.is_some_and(|now| now.1));
+    wait(&mut window, "a start", |app| app.session().snapshot().trying.is_some_and(|now| now.draped));
     window.run_steps(3);
     window.render().expect("a picture").save(folder.join("dress-tries.png")).expect("written");
     wait(&mut window, "the garment", |app| app.session().snapshot().started.is_some());

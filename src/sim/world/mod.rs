@@ -474,8 +474,11 @@ impl World {
         Some(self.dressing.as_ref().map_or(Phase::AtRest, |d| d.phase()))
     }
 
-    /// Progress of growing and settling, 0..=1.
+    /// Progress of growing and settling, or over all starts while they are tried, 0..=1.
     pub fn progress(&self) -> f64 {
+        if let Some(trials) = &self.trials {
+            return trials.progress();
+        }
         if let Some(posing) = &self.posing {
             return posing.progress();
         }

@@ -7,7 +7,7 @@ use crate::fit::MapKind;
 use crate::geometry::ids::MarkId;
 use crate::io::pdf::Paper;
 use crate::pattern::activity::Activity;
-use crate::sim::{DrapeState, Snapshot, Start};
+use crate::sim::{DrapeState, Snapshot, Trying};
 use crate::ui::actions::drawer::Drawer;
 use crate::ui::actions::keymap::Keymap;
 use crate::ui::actions::layout::Layout;
@@ -103,8 +103,8 @@ pub struct FrameContext {
     pub wrapping: bool,
     /// What Esc stops.
     pub stops: Option<Stops>,
-    /// While starts are tried: the current start, and whether it is being draped.
-    pub trying: Option<(Start, bool)>,
+    /// While starts are tried: the current one.
+    pub trying: Option<Trying>,
     /// Whether the simulation has work to do.
     pub working: bool,
     /// Whether the simulation has finished all requests.

@@ -166,6 +166,7 @@ impl App {
         let asked = self.has_asked_for_wrap(snapshot);
         let work = match snapshot.phase {
             _ if snapshot.dragged.is_some() => Some(Work::Hand),
+            _ if snapshot.trying.is_some() => Some(Work::Dressing),
             Some(Phase::Growing) => Some(Work::Growing),
             Some(Phase::Settling) => Some(Work::Settling),
             _ => None,

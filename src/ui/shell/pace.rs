@@ -14,6 +14,8 @@ pub enum Work {
     Growing,
     /// The cloth settles.
     Settling,
+    /// Starts are tried.
+    Dressing,
     /// The cloth follows a drag.
     Hand,
 }

@@ -3,8 +3,7 @@
 use egui::{Align, Layout, ProgressBar, RichText};
 
 use crate::drag::DragMode;
-use crate::sim::DrapeState;
-use crate::sim::Start;
+use crate::sim::{DrapeState, Start, Trying};
 use crate::ui::actions::context::{FrameContext, Stops};
 use crate::ui::actions::{Action, Tool};
 use crate::ui::language::keys::shortcut_text;
@@ -159,13 +158,18 @@ fn grouped(n: usize) -> String {
     out
 }
 
-/// The text of the status bar while starts are tried; `start` is the current one.
-pub fn trying_words((start, draped): (Start, bool), percent: u32) -> String {
-    match (start, draped) {
-        (Start::Marks, false) => say!("By marks: growing {percent} %", percent),
-        (Start::Marks, true) => say!("By marks: draping {percent} %", percent),
-        (Start::Placement, _) => say!("From placement: sewing {percent} %", percent),
-    }
+/// The text of the status bar while starts are tried; `percent` of all of them is done.
+pub fn trying_words(now: Trying, percent: u32) -> String {
+    let dressing = match now.number {
+        0 | 1 => say!("Dressing {percent} %", percent),
+        number => say!("Dressing {percent} %, attempt {number}", percent, number),
+    };
+    let work = match (now.start, now.draped) {
+        (Start::Marks, false) => tr("By marks: growing"),
+        (Start::Marks, true) => tr("By marks: draping"),
+        (Start::Placement, _) => tr("From placement: sewing"),
+    };
+    format!("{dressing} · {work}")
 }
 
 #[cfg(test)]
@@ -177,5 +181,12 @@ mod tests {
         assert_eq!(grouped(1_234_567), "1\u{2009}234\u{2009}567");
         assert_eq!(short("llvmpipe (LLVM 19.1, 256 bits) (Vulkan)"), "llvmpipe");
         assert_eq!(short("An adapter of a very long name indeed").chars().count(), 22);
+    }
+
+    #[test]
+    fn later_starts_are_told_with_their_number() {
+        let told = |start, draped, number| trying_words(Trying { start, draped, number }, 40);
+        assert_eq!(told(Start::Marks, true, 1), "Dressing 40 % · By marks: draping");
+        assert_eq!(told(Start::Placement, true, 2), "Dressing 40 %, attempt 2 · From placement: sewing");
     }
 }

@@ -1,6 +1,7 @@
 //! Search for the best start of a garment: ways to put it on are tried one after the other until one has no fault.
 
 mod as_built;
+mod progress;
 
 use std::sync::Arc;
 
@@ -12,13 +13,14 @@ use crate::place::Turned;
 use crate::sim::fault::{Fault, Lies, faults};
 use crate::sim::source::DrapeSource;
 use crate::sim::source::GarmentSource;
-use crate::sim::start::{AsBuilt, Start, StartChoice, Started, Tried};
+use crate::sim::start::{AsBuilt, Start, StartChoice, Started, Tried, Trying};
 use crate::sim::world::World;
 use crate::sim::world::coarse::coarse_edge;
 use crate::wrap::suggested;
 
 pub use as_built::BodyAndPose;
 use as_built::{Try, tries};
+use progress::Overall;
 
 /// Ticks for each layer after which a start is judged even if its cloth still moves, unless it is the only one. One that is done in
 /// parts counts as one, so that it does not depend on the number of triangles. Chosen by trial: with 1000 a shirt that came to rest
@@ -62,6 +64,9 @@ pub struct Trials {
     draping: bool,
     /// Ticks of the present start.
     ticks: u32,
+    /// Number of starts that were begun.
+    begun: usize,
+    overall: Overall,
     tried: Vec<Tried>,
     /// The best result so far, as a world and an index in `tried`.
     best: Option<(Arc<World>, usize)>,
@@ -101,6 +106,17 @@ impl Trials {
     /// The present start, and whether it is being draped.
     pub fn now(&self) -> (Start, bool) {
         (self.now, self.draping || self.now == Start::Placement)
+    }
+
+    /// The present start, whether it is being draped, and its number.
+    pub fn shown(&self) -> Trying {
+        let (start, draped) = self.now();
+        Trying { start, draped, number: self.begun }
+    }
+
+    /// Progress over all starts, 0..=1. It never falls.
+    pub fn progress(&self) -> f64 {
+        self.overall.now()
     }
 
     /// A result of the present start.
@@ -230,6 +246,8 @@ impl World {
             now: Start::Marks,
             draping: false,
             ticks: 0,
+            begun: 0,
+            overall: Overall::default(),
             tried: Vec::new(),
             best: None,
             broken: None,
@@ -248,7 +266,10 @@ impl World {
                 (trials.now, trials.draping, trials.carrying, trials.ticks) = (start, false, false, 0);
                 trials.undraped = None;
                 match begun(start, trials) {
-                    Ok(world) => return Some(world),
+                    Ok(world) => {
+                        trials.begun += 1;
+                        return Some(world);
+                    }
                     Err(words) => trials.tried.push(trials.result(vec![words], 0)),
                 }
             }
@@ -261,6 +282,11 @@ impl World {
 
     /// Does a tick while starts are tried: one of the present start, or the transition to the next.
     pub(in crate::sim) fn try_on(&mut self) {
+        self.try_further();
+        self.note_progress();
+    }
+
+    fn try_further(&mut self) {
         let Some(mut trials) = self.trials.take() else { return };
         let now = Arc::make_mut(&mut trials);
         let broken = now.broken.take();
