@@ -1,5 +1,6 @@
 //! Maps over the cloth: chosen, read, ranged, told in figures, burnt into pictures; and free when none is shown.
 
+use egui::accesskit::Role;
 use toile::session::samples::Sample;
 use toile::session::{Dressed, project_file};
 
@@ -249,10 +250,8 @@ fn joints_are_turned_by_a_slider_reset_and_mirrored() {
     window.get_by_label("Pose").click();
     window.run_steps(8);
     let pose = |window: &Window| app(window).session().document().body.pose().expect("the mannequin");
-    let slider = |window: &Window| {
-        window.get_by_role_and_label(egui::accesskit::Role::Slider, "Left elbow: Flexion").rect()
-    };
-    window.get_by_role_and_label(egui::accesskit::Role::Slider, "Left elbow: Flexion").scroll_to_me();
+    let slider = |window: &Window| window.get_by_role_and_label(Role::Slider, "Left elbow: Flexion").rect();
+    window.get_by_role_and_label(Role::Slider, "Left elbow: Flexion").scroll_to_me();
     window.run_steps(8);
     // The knob stands at 0°, at the left end of the rail.
     let rail = slider(&window);
@@ -375,4 +374,42 @@ fn a_map_chosen_with_enter_closes_the_list() {
     window.run_steps(4);
     assert!(has(&window, "Map: Shear"));
     assert!(!has(&window, "Pressure on the skin"), "the list");
+}
+
+#[test]
+fn keys_lead_through_the_list_from_the_present_map() {
+    let mut window = dressed_window();
+    choose(&mut window, "Change of area");
+    window.get_by_label("Map: Area").click();
+    window.run_steps(4);
+    let is_at = |window: &Window, label: &str| {
+        let entry = window.get_by_role_and_label(Role::Button, label);
+        assert!(entry.accesskit_node().is_focused(), "{label}");
+    };
+    is_at(&window, "Change of area");
+    for (pressed, label) in [
+        (Key::ArrowDown, "Ease: gap to the body"),
+        (Key::ArrowUp, "Change of area"),
+        (Key::ArrowUp, "Shear"),
+        (Key::End, "Pressure on the skin"),
+        (Key::ArrowDown, "Pressure on the skin"),
+        (Key::Home, "No map"),
+        (Key::ArrowUp, "No map"),
+    ] {
+        key(&mut window, Modifiers::NONE, pressed);
+        is_at(&window, label);
+    }
+    for (typed, label) in [("s", "Shear"), ("t", "Strain along seams"), ("m", "Mean curvature")] {
+        window.event(Event::Text(typed.to_owned()));
+        window.run_steps(3);
+        is_at(&window, label);
+    }
+    key(&mut window, Modifiers::NONE, Key::Enter);
+    window.run_steps(4);
+    assert!(has(&window, "Map: Curvature") && !has(&window, "Pressure on the skin"));
+    // Opened again it begins at what was chosen.
+    window.get_by_label("Map: Curvature").click();
+    window.run_steps(4);
+    key(&mut window, Modifiers::NONE, Key::ArrowDown);
+    is_at(&window, "Strain along seams");
 }

@@ -6,6 +6,7 @@ mod chooser;
 mod comparison;
 mod flat;
 mod legend;
+mod list_keys;
 mod opening;
 mod probe;
 mod table;
