@@ -614,6 +614,50 @@ fn buttons_of_a_narrow_window_lie_beside_or_above_each_other() {
     );
 }
 
+/// German words are longer: there were two rows.
+#[test]
+fn the_toolbar_takes_one_row_in_a_window_of_1024_points() {
+    for (language, maps, widest, names) in [
+        (
+            "en",
+            "Map: No map",
+            "Weft strain: across the grain",
+            ["Undo", "Redo", "Show the cloth", "Side panel"],
+        ),
+        (
+            "de",
+            "Karte: Keine Karte",
+            "Schussdehnung: quer zum Fadenlauf",
+            ["Rückgängig", "Wiederholen", "Stoff zeigen", "Seitenleiste"],
+        ),
+    ] {
+        let mut window = super::hand::dressed_window();
+        edit(&mut window, |app, _| app.follow_language(language.to_owned()));
+        window.set_size(Vec2::new(1024.0, 768.0));
+        window.run_steps(6);
+        let assert_one_row = |window: &Window| {
+            let title = maps.split(' ').next().expect("a word");
+            let is_chooser = |label: Option<String>| label.is_some_and(|label| label.starts_with(title));
+            let mut lists = window.query_all_by_role(Role::ComboBox);
+            let chooser = lists.find(|list| is_chooser(list.accesskit_node().label())).expect("it").rect();
+            let is_beside = |rect: &Rect| (rect.center().y - chooser.center().y).abs() < 1.0;
+            let buttons = window.get_all_by_role(Role::Button).map(|node| node.rect()).filter(is_beside);
+            let mut row: Vec<Rect> = buttons.collect();
+            assert_eq!(row.len(), 12, "{language}: {row:?} beside {chooser}");
+            row.push(chooser);
+            are_apart(&row, Rect::from_min_size(Pos2::ZERO, Vec2::new(1024.0, 768.0)));
+            for name in names {
+                assert!(row.contains(&window.get_by_role_and_label(Role::Button, name).rect()), "{name}");
+            }
+        };
+        assert_one_row(&window);
+        act(&mut window, maps);
+        act(&mut window, widest);
+        window.run_steps(4);
+        assert_one_row(&window);
+    }
+}
+
 /// Asserts that no two of `rects` overlap and that all lie in `within`.
 fn are_apart(rects: &[Rect], within: Rect) {
     for (i, rect) in rects.iter().enumerate() {
