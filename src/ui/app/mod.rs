@@ -60,8 +60,8 @@ use crate::ui::look::scheme::Scheme;
 use crate::ui::look::theme::{self, Palette};
 use crate::ui::panels::marks::MarksPanel;
 use crate::ui::panels::pattern::PatternPanel;
-use crate::ui::pattern_pane::PatternPane;
 use crate::ui::pattern_pane::view::TableView;
+use crate::ui::pattern_pane::{PLACE_HEIGHT, PatternPane};
 use crate::ui::preferences::Preferences;
 use crate::ui::scenery::scene::Scenery;
 use crate::ui::selection::Selection;
@@ -341,7 +341,7 @@ impl App {
             self.panels(ui, &document, &snapshot, &now, &palette, &mut asks);
         }
         self.over_panes(&ctx, &now, &palette, &mut asks);
-        self.messages.ui(&ctx, &palette, status::HEIGHT);
+        self.messages.ui(&ctx, &palette, self.below_messages(&ctx));
         if let (Some((player, ..)), Some(table)) = (&self.demo, self.pattern_pane.area) {
             player.ui(&ctx, &palette, table, &mut asks);
             asks.retain(|ask| matches!(ask, Ask::Act(action) if action.row().in_demos));
@@ -360,6 +360,13 @@ impl App {
         self.set_title(&ctx);
         self.tend_safety(&ctx);
         self.tend_graphics(&ctx);
+    }
+
+    /// Height of what stays free below the messages, points: the status bar, and of the table the position of the pointer.
+    fn below_messages(&self, ctx: &egui::Context) -> f32 {
+        let table = self.pattern_pane.area.filter(|_| self.shell.start.is_none());
+        let below = |pane: egui::Rect| ctx.content_rect().bottom() - pane.bottom() + PLACE_HEIGHT;
+        table.map_or(status::HEIGHT, below)
     }
 
     /// Makes the next frame set the window's title.

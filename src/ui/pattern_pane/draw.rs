@@ -29,6 +29,8 @@ pub struct Drawing<'a> {
 
 /// Where the number of a mark is, from the mark's first point, points.
 const NUMBER_AT: Vec2 = Vec2::new(-11.0, -11.0);
+/// Height of the position of the pointer, with the space below it, at the lower edge of the pane, points.
+pub const PLACE_HEIGHT: f32 = 22.0;
 /// Opacity of proposed marks.
 const GHOST: f32 = 0.6;
 

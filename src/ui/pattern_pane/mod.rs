@@ -42,6 +42,7 @@ use crate::ui::preferences::units::LengthUnit;
 use crate::ui::selection::{Item, Selection};
 use crate::wrap::Marks;
 use draw::Drawing;
+pub use draw::PLACE_HEIGHT;
 use draw_trims::Rows;
 use entry::Entry;
 use guides::Guides;

@@ -1,5 +1,6 @@
 //! Lines, holes, arcs, guides; pieces folded, unfolded and made symmetric.
 
+use egui::Rect;
 use toile::pattern::{AllowanceCorner, EdgeShape, InternalLine, Piping, Side, Wrinkle};
 
 use super::*;
@@ -359,4 +360,33 @@ fn is_in(polygon: &[egui::Pos2], p: egui::Pos2) -> bool {
         .zip(next)
         .filter(|(a, b)| (a.y > p.y) != (b.y > p.y) && p.x < a.x + (p.y - a.y) / (b.y - a.y) * (b.x - a.x));
     crossed.count() % 2 == 1
+}
+
+/// The area of the text at the lower left corner of the pane: the position of the pointer.
+fn position_told(window: &Window, pane: Rect) -> Option<Rect> {
+    let corner = Rect::from_min_max(pane.left_bottom() - Vec2::Y * 30.0, pane.left_bottom() + Vec2::X * 20.0);
+    window.output().shapes.iter().find_map(|clipped| match &clipped.shape {
+        egui::Shape::Text(text) if text.galley.text().ends_with(" cm") => {
+            Some(text.visual_bounding_rect()).filter(|rect| corner.intersects(*rect))
+        }
+        _ => None,
+    })
+}
+
+#[test]
+fn messages_leave_the_position_of_the_pointer_free() {
+    for with_log in [false, true] {
+        let mut window = window_on(squares());
+        if with_log {
+            crate::from_menu(&mut window, "View", "Messages");
+        }
+        key(&mut window, Modifiers::NONE, Key::D);
+        let pane = window.get_by_label("Pattern pane").rect();
+        move_to(&mut window, pane.center_top() + Vec2::Y * 40.0);
+        window.run_steps(3);
+        let told = window.get_all_by_label_contains("There is no cloth on the body.");
+        let message = told.map(|label| label.rect()).min_by(|a, b| a.top().total_cmp(&b.top()));
+        let (message, place) = (message.expect("it is told"), position_told(&window, pane).expect("a place"));
+        assert!(!message.expand(6.0).intersects(place), "{message} over {place}");
+    }
 }
