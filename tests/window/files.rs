@@ -25,6 +25,18 @@ pub fn read_by(window: &mut Window, menu: &str, entry: &str, path: &Path) -> boo
 }
 
 #[test]
+fn the_field_of_a_path_is_named_apart_from_the_kind_of_file() {
+    let mut window = super::hand::dressed_window();
+    super::hand::choose(&mut window, "File", "Save as…");
+    if super::hand::has_file_dialogs() {
+        return;
+    }
+    let field = window.query_by_role_and_label(egui::accesskit::Role::TextInput, "Path of the file");
+    assert!(field.is_some());
+    assert!(window.query_by_label("Toile project (.toile)").is_some());
+}
+
+#[test]
 fn a_path_that_is_typed_replaces_the_suggested_name() {
     let folder = tempfile::tempdir().expect("a folder");
     let mut window = super::hand::dressed_window();

@@ -290,8 +290,9 @@ fn path_ui(ctx: &egui::Context, purpose: Purpose, text: &mut String) -> Answer {
         ui.heading(tr(purpose.title()));
         ui.add_space(4.0);
         let (kind, endings) = purpose.filter();
-        let label =
-            ui.label(say!("Path: {kind} (.{endings})", kind = tr(kind), endings = endings.join(", .")));
+        ui.weak(format!("{} (.{})", tr(kind), endings.join(", .")));
+        ui.add_space(4.0);
+        let label = ui.label(tr("Path of the file"));
         let hint = format!("/home/me/name.{}", endings.first().unwrap_or(&"toile"));
         let field = ui
             .add(TextEdit::singleline(text).desired_width(f32::INFINITY).hint_text(hint))
