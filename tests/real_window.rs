@@ -14,10 +14,13 @@ use glam::{DVec2, DVec3};
 use toile::body::{Surface, mannequin};
 use toile::cloth::build;
 use toile::fit::{BodyIndex, measure, verdict};
+use toile::session::samples::Sample;
 use toile::session::{Document, Project, project_file};
 use toile::ui::App;
 
 const SIZE: [f32; 2] = [1400.0, 880.0];
+/// What the program writes to standard error, in its home.
+const ERRORS: &str = "errors";
 /// Room for the skirt over the hips, metres.
 const EASE: f64 = 0.03;
 
@@ -36,8 +39,8 @@ struct Screen {
     display: String,
     /// Milliseconds a frame takes, and room.
     frame: u64,
-    _server: Running,
-    _window: Running,
+    server: Running,
+    window: Running,
 }
 
 /// Whether `program` is on this machine. Where pictures are required so are the display and the hand.
@@ -70,10 +73,9 @@ impl Screen {
             .envs(
                 ["XDG_CONFIG_HOME", "XDG_STATE_HOME", "XDG_DATA_HOME", "XDG_RUNTIME_DIR"].map(|k| (k, home)),
             )
-            .stderr(Stdio::null())
+            .stderr(std::fs::File::create(home.join(ERRORS)).expect("a file"))
             .spawn();
-        let mut screen =
-            Self { display, frame: 500, _server: server, _window: Running(window.expect("the program")) };
+        let mut screen = Self { display, frame: 500, server, window: Running(window.expect("the program")) };
         wait("the window", || screen.hand(&["search", "--onlyvisible", "--name", "Toile"]));
         // Its first frames; the keyboard is nobody's in a display without a window manager.
         pause(3000);
@@ -308,4 +310,42 @@ fn a_skirt_is_drawn_sewn_marked_and_dressed_with_the_pointer() {
         verdict(&report).is_empty() && report.strain.p99 < 0.05 && report.openings.len() == 2
     };
     screen.saved(&file, "a dressed skirt", fits);
+}
+
+/// In an idle window Xlib ends the program by itself; in one that is drawn all the time winit panics.
+#[test]
+fn a_display_that_goes_away_is_told_and_the_work_is_kept() {
+    if !["Xvfb", "xdotool"].into_iter().all(has) {
+        return;
+    }
+    for draws in [false, true] {
+        let home = tempfile::tempdir().expect("a folder");
+        let project = home.path().join("skirt.toile");
+        let skirt = Sample::Skirt.project(&mannequin::default());
+        project_file::save(&project, &skirt).expect("saved");
+        let mut screen = Screen::new(&project, home.path());
+        // A wrap changes the project, and is drawn while it lasts.
+        screen.key("Return");
+        let sessions = home.path().join("toile/sessions");
+        wait("the wrap in the journal", || {
+            journal_of(&sessions).is_some_and(|text| text.contains("\"wrap\""))
+        });
+        pause(if draws { 300 } else { 8_000 });
+        screen.server.0.kill().expect("ended");
+        wait("the end", || screen.window.0.try_wait().is_ok_and(|code| code.is_some()));
+        let code = screen.window.0.wait().expect("it has ended").code();
+        let errors = std::fs::read_to_string(home.path().join(ERRORS)).expect("a file");
+        assert!(errors.contains("toile: the connection to the display was lost; "), "{errors}");
+        assert!(errors.contains("is kept, and offered") && !errors.contains("internal error"), "{errors}");
+        assert_eq!(code, Some(5), "{errors}");
+        assert!(journal_of(&sessions).is_some(), "the work is kept");
+    }
+}
+
+/// The journal of the only session that is kept in `folder`.
+fn journal_of(folder: &Path) -> Option<String> {
+    let session = std::fs::read_dir(folder).ok()?.flatten().find(|entry| entry.path().is_dir())?.path();
+    let files = std::fs::read_dir(session).ok()?.flatten().map(|entry| entry.path());
+    let journals = files.filter(|path| path.extension().is_some_and(|ending| ending == "journal"));
+    journals.filter_map(|path| std::fs::read_to_string(path).ok()).last()
 }

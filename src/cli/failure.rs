@@ -26,7 +26,7 @@ pub enum Failure {
     /// The work exceeds a limit of the program.
     #[error("{0}")]
     Limit(String),
-    /// There is no graphics adapter, or no display.
+    /// There is no graphics adapter, or no display, or it was lost.
     #[error("{0}")]
     Graphics(String),
     /// A file could not be read or written.

@@ -8,6 +8,7 @@ mod check;
 mod cloth_options;
 mod compare;
 mod completions;
+mod display;
 mod dress;
 mod dress_one;
 mod export;
@@ -64,7 +65,11 @@ use crate::session::whole_file;
 /// Runs the program. It never panics; failures are printed on standard error, and the exit code gives their kind.
 pub fn main() -> ExitCode {
     listen_to_traces();
-    std::panic::set_hook(Box::new(|panic| output::complain(&panic_words(panic))));
+    std::panic::set_hook(Box::new(|panic| {
+        if !display::is_lost(panic) {
+            output::complain(&panic_words(panic));
+        }
+    }));
     let code = catch_unwind(AssertUnwindSafe(run)).unwrap_or(PANIC);
     ExitCode::from(code)
 }

@@ -5,7 +5,7 @@ use std::path::Path;
 
 use crate::cli::arguments::{Dress, InputOptions};
 use crate::cli::failure::Failure;
-use crate::cli::{dress, input, output};
+use crate::cli::{display, dress, input, output};
 
 /// The folder that the first sample is dressed into when there is no display.
 const SAMPLE_OUT: &str = "toile-out";
@@ -26,8 +26,7 @@ pub fn open(project: Option<&Path>, record: Option<&Path>) -> Result<(), Failure
         None => None,
     };
     let file = project.filter(|_| input.as_ref().is_some_and(|i| i.is_project_file)).map(Path::to_owned);
-    crate::ui::run(input.map(|input| input.project), file, record)
-        .map_err(|e| Failure::Graphics(e.to_string()))
+    display::watched(|| crate::ui::run(input.map(|input| input.project), file, record))
 }
 
 /// Dresses a sample in place of the editor when no window can be opened.

@@ -33,4 +33,4 @@ mod selection;
 mod shell;
 
 pub use app::App;
-pub use app::run::run;
+pub use app::run::{display_lost, is_loss_of_display, run};

@@ -57,6 +57,22 @@ fn a_window_that_was_closed_leaves_nothing() {
     assert!(next.query_by_label("Restore").is_none());
 }
 
+/// As when its display is lost.
+#[test]
+fn a_window_that_ends_without_consent_leaves_unsaved_work() {
+    let root = tempfile::tempdir().expect("a folder");
+    for (renamed, offered) in [(false, false), (true, true)] {
+        let mut window = safe_window(root.path());
+        if renamed {
+            rename(&mut window, "precious");
+        }
+        window.state_mut().as_mut().expect("the app").end();
+        drop(window);
+        let next = safe_window(root.path());
+        assert_eq!(next.query_by_label("Restore").is_some(), offered);
+    }
+}
+
 #[test]
 fn a_file_that_somebody_else_changed_is_not_written_over() {
     let folder = tempfile::tempdir().expect("a folder");

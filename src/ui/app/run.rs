@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 use std::rc::Rc;
 use std::time::Instant;
 
-use anyhow::{Context, anyhow};
+use anyhow::anyhow;
 
 use crate::session::Project;
 use crate::ui::app::App;
@@ -53,7 +53,7 @@ pub fn run(project: Option<Project>, path: Option<PathBuf>, record: Option<File>
         let ended = catch_unwind(AssertUnwindSafe(|| eframe::run_native("Toile", options, create)));
         match ended {
             Ok(ended) => {
-                ended.map_err(|e| anyhow!(words(&e))).context("the window could not be opened")?;
+                ended.map_err(|e| failure(&e))?;
             }
             Err(_) if kept.try_borrow().is_ok_and(|app| app.as_ref().is_some_and(App::is_moving)) => {}
             Err(panic) => resume_unwind(panic),
@@ -155,21 +155,54 @@ impl eframe::App for Window {
         if let Some(app) = self.app.borrow_mut().as_mut()
             && !app.is_moving()
         {
-            app.finish();
+            app.end();
         }
     }
 }
 
 /// The error as a message, with advice where there is any.
-fn words(error: &eframe::Error) -> String {
+fn failure(error: &eframe::Error) -> anyhow::Error {
     use winit::error::EventLoopError;
-    match error {
+    let why = match error {
+        eframe::Error::WinitEventLoop(EventLoopError::ExitFailure(_)) => return anyhow!(display_lost()),
         eframe::Error::WinitEventLoop(EventLoopError::NotSupported(_)) => {
             "this system has no windows; see toile --help for what works without".to_owned()
         }
-        eframe::Error::WinitEventLoop(EventLoopError::ExitFailure(code)) => {
-            format!("the connection to the display broke (code {code})")
+        // Its own words name a file of winit's code.
+        eframe::Error::WinitEventLoop(EventLoopError::Os(_)) => {
+            "the display does not answer; see toile --help for what works without one".to_owned()
         }
         other => other.to_string(),
+    };
+    anyhow!("the window could not be opened: {why}")
+}
+
+/// What to say when the connection to the display is lost.
+pub fn display_lost() -> String {
+    let work = match safety::is_kept() {
+        true => "work that was not saved is kept, and offered when Toile is started next",
+        false => "work that was not saved could not be kept",
+    };
+    format!("the connection to the display was lost; {work}")
+}
+
+/// Whether a panic with these words, in this file of code, tells that the connection to the display is broken.
+pub fn is_loss_of_display(file: &str, words: &str) -> bool {
+    file.contains("winit-") && ["IoError", "ConnectionError", "BrokenPipe"].iter().any(|w| words.contains(w))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn only_panics_about_the_connection_are_no_fault_of_the_program() {
+        let file = "/registry/winit-0.30.13/src/platform_impl/linux/x11/window.rs";
+        let words = "called `Result::unwrap()` on an `Err` value: Connection(IoError(Custom))";
+        assert!(is_loss_of_display(file, words));
+        assert!(
+            !is_loss_of_display(file, "index out of bounds")
+                && !is_loss_of_display("src/ui/app/mod.rs", words)
+        );
     }
 }

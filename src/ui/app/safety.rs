@@ -1,6 +1,7 @@
 //! Saves unsaved work for recovery after a crash, and offers it after one.
 
 use std::path::{Path, PathBuf};
+use std::sync::atomic::{AtomicBool, Ordering};
 use std::thread::JoinHandle;
 use std::time::{Duration, SystemTime};
 
@@ -14,6 +15,14 @@ use crate::ui::shell::dialogs::Dialog;
 
 /// Additional delay of a copy while the cloth is moving, seconds.
 const LATEST: f64 = 50.0;
+
+/// Whether unsaved work of a window is being kept.
+static KEPT: AtomicBool = AtomicBool::new(false);
+
+/// Whether unsaved work of the window is being kept for recovery.
+pub fn is_kept() -> bool {
+    KEPT.load(Ordering::Relaxed)
+}
 
 /// The system's folder for work that is not saved yet; None where there is no home folder.
 pub fn usual_root() -> Option<PathBuf> {
@@ -47,7 +56,9 @@ impl Safety {
     /// can be kept, if so.
     pub fn begin(root: &Path) -> (Self, Vec<Left>, Option<String>) {
         let found = left(root);
-        match Keeper::begin(root) {
+        let begun = Keeper::begin(root);
+        KEPT.store(begun.is_ok(), Ordering::Relaxed);
+        match begun {
             Ok(keeper) => (
                 Self { keeper: Some(keeper), writing: None, copied: 0.0, fresh: true, soonest: 10.0 },
                 found,
@@ -120,6 +131,7 @@ impl Safety {
     }
 
     fn give_up(&mut self, session: &mut Session) {
+        KEPT.store(false, Ordering::Relaxed);
         self.keeper = None;
         session.mark_copied(None);
     }
@@ -163,6 +175,13 @@ impl App {
     /// The window closes.
     pub fn finish(&mut self) {
         self.safety.finish();
+    }
+
+    /// The window ends: because it is closed or, when its display is lost, without anybody's consent. Then unsaved work stays.
+    pub fn end(&mut self) {
+        if self.may_close || !self.session.is_modified() {
+            self.finish();
+        }
     }
 
     pub(in crate::ui) fn tend_safety(&mut self, ctx: &egui::Context) {
