@@ -4,6 +4,10 @@
 //! by an edge only along the rim, so that mirroring closes the mesh without doubled triangles.
 
 use glam::DVec3;
+use smallvec::SmallVec;
+
+/// A few vertices or triangles round a vertex or an edge.
+pub type Few = SmallVec<[u32; 16]>;
 
 /// A triangle mesh being edited. Removed triangles and vertices stay in the lists until `compacted`.
 pub struct Editing {
@@ -32,16 +36,19 @@ impl Editing {
 
     /// Edges, lower vertex first, in the order of their triangles.
     pub fn edges(&self) -> Vec<[u32; 2]> {
-        let mut edges: Vec<[u32; 2]> = Vec::with_capacity(self.triangles.len() * 3);
+        let mut edges: Vec<u64> = Vec::with_capacity(self.triangles.len() * 3 / 2);
         for t in self.triangles.iter().filter(|t| t[0] != t[1]) {
             for k in 0..3 {
                 let (a, b) = (t[k], t[(k + 1) % 3]);
-                edges.push([a.min(b), a.max(b)]);
+                // The two triangles of an edge run along it in opposite directions; one on the rim has only one.
+                if a < b || (self.rim[a as usize] && self.rim[b as usize]) {
+                    edges.push(u64::from(a.min(b)) << 32 | u64::from(a.max(b)));
+                }
             }
         }
         edges.sort_unstable();
         edges.dedup();
-        edges
+        edges.into_iter().map(|edge| [(edge >> 32) as u32, edge as u32]).collect()
     }
 
     /// Length of an edge, metres.
@@ -50,13 +57,13 @@ impl Editing {
     }
 
     /// The triangles of an edge: one on the rim, else two.
-    pub fn across(&self, [a, b]: [u32; 2]) -> Vec<u32> {
+    pub fn across(&self, [a, b]: [u32; 2]) -> Few {
         self.around[a as usize].iter().copied().filter(|&t| self.triangles[t as usize].contains(&b)).collect()
     }
 
     /// Vertices joined to `v`, ascending.
-    pub fn neighbours(&self, v: u32) -> Vec<u32> {
-        let mut near: Vec<u32> = self.around[v as usize]
+    pub fn neighbours(&self, v: u32) -> Few {
+        let mut near: Few = self.around[v as usize]
             .iter()
             .flat_map(|&t| self.triangles[t as usize])
             .filter(|&w| w != v)
@@ -140,8 +147,7 @@ impl Editing {
             self.forget(keep, t);
             self.triangles[t as usize] = [0; 3];
         }
-        let moved: Vec<u32> =
-            self.around[drop as usize].iter().copied().filter(|t| !sides.contains(t)).collect();
+        let moved: Few = self.around[drop as usize].iter().copied().filter(|t| !sides.contains(t)).collect();
         for &t in &moved {
             self.replace(t, drop, keep);
         }

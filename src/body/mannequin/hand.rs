@@ -14,13 +14,44 @@ const KNUCKLE: f64 = 0.005;
 /// Fillet width between two fingers, metres: small, so that they stay apart.
 const WEB: f64 = 0.003;
 
+/// Rounding errors of distances, metres.
+const SLACK: f64 = 1e-9;
+
 /// The fingers of the left hand, in the arm's frame: length along the arm, outward, forward.
 #[derive(Clone, Debug)]
 pub struct Hand {
-    joints: Vec<[(DVec3, f64); 4]>,
+    fingers: Vec<Finger>,
     starts_at: f64,
     /// Factor on the fillets.
     fine: f64,
+}
+
+/// A finger, in a ball.
+#[derive(Clone, Debug)]
+struct Finger {
+    /// Its joints, and their radii.
+    joints: [(DVec3, f64); 4],
+    middle: DVec3,
+    radius: f64,
+}
+
+impl Finger {
+    fn new(joints: [(DVec3, f64); 4]) -> Self {
+        let middle = joints.iter().map(|(p, _)| *p).sum::<DVec3>() / 4.0;
+        let radius = joints.iter().map(|(p, radius)| p.distance(middle) + radius).fold(0.0, f64::max);
+        Self { joints, middle, radius }
+    }
+
+    /// Signed distance at `p`, metres; `fine` is the factor on the fillets.
+    fn distance(&self, p: DVec3, fine: f64) -> f64 {
+        let bones = self.joints.windows(2).map(|w| tapered(p, w[0], w[1]));
+        bones.fold(f64::INFINITY, |a, b| joined(a, b, KNUCKLE * fine))
+    }
+
+    /// What that is at least: a fillet is no deeper than a sixth of its width, and there are two.
+    fn least(&self, p: DVec3, fine: f64) -> f64 {
+        p.distance(self.middle) - self.radius - KNUCKLE * fine / 3.0
+    }
 }
 
 impl Hand {
@@ -36,17 +67,17 @@ impl Hand {
             spline.value(s) + slope * (s - last).max(0.0)
         };
         let scale = figure.hand();
-        let joints = nominal::FINGERS
+        let fingers = nominal::FINGERS
             .iter()
             .map(|chain| {
-                chain.map(|[s, u, v, radius]| {
+                Finger::new(chain.map(|[s, u, v, radius]| {
                     let bent = DVec3::new(0.0, beyond(&outward, s), beyond(&forward, s)) * k
                         + DVec3::new(0.0, u, v) * scale;
                     (DVec3::new(figure.along_arm(s), bent.y, bent.z), radius * scale)
-                })
+                }))
             })
             .collect();
-        Self { joints, starts_at: figure.along_arm(0.54), fine: figure.fine() }
+        Self { fingers, starts_at: figure.along_arm(0.54), fine: figure.fine() }
     }
 
     /// Signed distance at `p` (in the arm's frame) to the arm with its fingers; `arm` is the distance to the arm alone.
@@ -55,9 +86,15 @@ impl Hand {
             return arm;
         }
         let fine = self.fine;
-        let fingers = self.joints.iter().fold(f64::INFINITY, |d, chain| {
-            let bones = chain.windows(2).map(|w| tapered(p, w[0], w[1]));
-            joined(d, bones.fold(f64::INFINITY, |a, b| joined(a, b, KNUCKLE * fine)), WEB * fine)
+        // Shapes that are farther apart than their fillet is wide are joined without it: a far finger changes nothing.
+        let webs = self.fingers.len() as f64 * WEB * fine / 6.0;
+        let least = self.fingers.iter().map(|finger| finger.least(p, fine)).fold(f64::INFINITY, f64::min);
+        if least - webs > arm + PALM * fine + SLACK {
+            return arm;
+        }
+        let fingers = self.fingers.iter().fold(f64::INFINITY, |d, finger| {
+            let is_far = finger.least(p, fine) > d + WEB * fine + SLACK;
+            if is_far { d } else { joined(d, finger.distance(p, fine), WEB * fine) }
         });
         blended(arm, fingers, PALM * fine)
     }
@@ -72,4 +109,36 @@ fn tapered(p: DVec3, (a, ra): (DVec3, f64), (b, rb): (DVec3, f64)) -> f64 {
     let ab = b - a;
     let t = ((p - a).dot(ab) / ab.length_squared()).clamp(0.0, 1.0);
     (p - a - ab * t).length() - (ra + (rb - ra) * t)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::body::mannequin::Measurements;
+    use crate::body::mannequin::figure::Factors;
+    use crate::geometry::random::Random;
+
+    /// The distance with nothing left out.
+    fn plain(hand: &Hand, arm: f64, p: DVec3) -> f64 {
+        let fingers = hand.fingers.iter();
+        let all = fingers
+            .fold(f64::INFINITY, |d, finger| joined(d, finger.distance(p, hand.fine), WEB * hand.fine));
+        blended(arm, all, PALM * hand.fine)
+    }
+
+    #[test]
+    fn far_fingers_are_left_out_without_a_trace() {
+        let hand = Hand::new(&Figure::new(Factors::guess(&Measurements::default())));
+        let mut random = Random::stream(9, 0);
+        let mut plainly = 0;
+        for _ in 0..20_000 {
+            let mut between = |low: f64, high: f64| random.between(low, high);
+            let p =
+                DVec3::new(hand.starts_at + between(0.0, 0.3), between(-0.15, 0.15), between(-0.15, 0.15));
+            let arm = between(-0.05, 0.15);
+            assert_eq!(hand.with(arm, p), plain(&hand, arm, p), "{p} {arm}");
+            plainly += usize::from(hand.with(arm, p) == arm);
+        }
+        assert!(plainly > 2000, "{plainly}");
+    }
 }

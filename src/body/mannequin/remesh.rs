@@ -69,7 +69,7 @@ fn relax(mesh: &mut Editing, field: &Field, steps: usize) {
             let p = mesh.positions[v];
             let mut near = mesh.neighbours(v as u32);
             if mesh.rim[v] {
-                near.retain(|&w| mesh.rim[w as usize]);
+                near.retain(|w| mesh.rim[*w as usize]);
             }
             let middle = near.iter().map(|&w| mesh.positions[w as usize]).sum::<DVec3>() / near.len() as f64;
             let step = middle - p;
