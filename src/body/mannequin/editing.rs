@@ -34,7 +34,7 @@ impl Editing {
         Self { positions, triangles, around, rim }
     }
 
-    /// Edges, lower vertex first, in the order of their triangles.
+    /// Edges, lower vertex first, ascending.
     pub fn edges(&self) -> Vec<[u32; 2]> {
         let mut edges: Vec<u64> = Vec::with_capacity(self.triangles.len() * 3 / 2);
         for t in self.triangles.iter().filter(|t| t[0] != t[1]) {

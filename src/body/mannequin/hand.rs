@@ -20,7 +20,7 @@ const SLACK: f64 = 1e-9;
 /// The fingers of the left hand, in the arm's frame: length along the arm, outward, forward.
 #[derive(Clone, Debug)]
 pub struct Hand {
-    fingers: Vec<Finger>,
+    fingers: [Finger; nominal::FINGERS.len()],
     starts_at: f64,
     /// Factor on the fillets.
     fine: f64,
@@ -67,16 +67,13 @@ impl Hand {
             spline.value(s) + slope * (s - last).max(0.0)
         };
         let scale = figure.hand();
-        let fingers = nominal::FINGERS
-            .iter()
-            .map(|chain| {
-                Finger::new(chain.map(|[s, u, v, radius]| {
-                    let bent = DVec3::new(0.0, beyond(&outward, s), beyond(&forward, s)) * k
-                        + DVec3::new(0.0, u, v) * scale;
-                    (DVec3::new(figure.along_arm(s), bent.y, bent.z), radius * scale)
-                }))
-            })
-            .collect();
+        let fingers = nominal::FINGERS.map(|chain| {
+            Finger::new(chain.map(|[s, u, v, radius]| {
+                let bent = DVec3::new(0.0, beyond(&outward, s), beyond(&forward, s)) * k
+                    + DVec3::new(0.0, u, v) * scale;
+                (DVec3::new(figure.along_arm(s), bent.y, bent.z), radius * scale)
+            }))
+        });
         Self { fingers, starts_at: figure.along_arm(0.54), fine: figure.fine() }
     }
 
@@ -88,12 +85,12 @@ impl Hand {
         let fine = self.fine;
         // Shapes that are farther apart than their fillet is wide are joined without it: a far finger changes nothing.
         let webs = self.fingers.len() as f64 * WEB * fine / 6.0;
-        let least = self.fingers.iter().map(|finger| finger.least(p, fine)).fold(f64::INFINITY, f64::min);
-        if least - webs > arm + PALM * fine + SLACK {
+        let least = self.fingers.each_ref().map(|finger| finger.least(p, fine));
+        if least.into_iter().fold(f64::INFINITY, f64::min) - webs > arm + PALM * fine + SLACK {
             return arm;
         }
-        let fingers = self.fingers.iter().fold(f64::INFINITY, |d, finger| {
-            let is_far = finger.least(p, fine) > d + WEB * fine + SLACK;
+        let fingers = self.fingers.iter().zip(least).fold(f64::INFINITY, |d, (finger, least)| {
+            let is_far = least > d + WEB * fine + SLACK;
             if is_far { d } else { joined(d, finger.distance(p, fine), WEB * fine) }
         });
         blended(arm, fingers, PALM * fine)
