@@ -15,6 +15,7 @@
 //! | `language` | which language is shown, its keys, fields for its numbers |
 //! | `preferences` | the user's preferences, and their page; units |
 //! | `pointer`, `look` | mouse and strokes; colours and icons |
+//! | `list` | drop-down lists and their keys |
 
 pub mod actions;
 pub mod app;
@@ -22,6 +23,7 @@ mod body_pane;
 mod files;
 pub mod fit_page;
 pub(crate) mod language;
+mod list;
 mod look;
 mod maps;
 mod panels;

@@ -30,6 +30,7 @@ mod environment;
 mod files;
 mod hand;
 mod language;
+mod lists;
 mod maps;
 mod marker;
 mod mouse;

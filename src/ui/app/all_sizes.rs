@@ -20,6 +20,7 @@ use crate::ui::body_pane::Graphics;
 use crate::ui::files::{self, Purpose};
 use crate::ui::language::pictures::no_picture;
 use crate::ui::language::{number, said, say, signed, tr};
+use crate::ui::list::list_ui;
 use crate::ui::look::theme::Palette;
 use crate::ui::scenery::portrait::worn_scene;
 use crate::ui::scenery::scene::Scenery;
@@ -203,13 +204,13 @@ impl AllSizes {
         }
         ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
             let combo = ComboBox::from_id_salt("map of sizes").selected_text(tr(self.map.title()));
-            let shown = combo.show_ui(ui, |ui| {
+            let shown = list_ui(ui, combo, |entries| {
                 for kind in MAPS {
-                    ui.selectable_value(&mut self.map, kind, tr(kind.title()));
+                    entries.add_value(&mut self.map, kind, tr(kind.title()));
                 }
             });
             let label = ui.label(tr("Map"));
-            shown.response.labelled_by(label.id);
+            shown.labelled_by(label.id);
         });
         answer
     }

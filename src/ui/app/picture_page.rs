@@ -12,6 +12,7 @@ use crate::ui::files::{self, Purpose};
 use crate::ui::language::fields::drag_value;
 use crate::ui::language::pictures::no_picture;
 use crate::ui::language::{say, tr};
+use crate::ui::list::list_ui;
 use crate::ui::look::theme::{self, Palette};
 use crate::ui::scenery::portrait::{Extras, portrait};
 
@@ -96,12 +97,12 @@ impl PicturePage {
                     Some(view) => tr(Action::Look(view).row().text),
                 };
                 let combo = ComboBox::from_id_salt("side").selected_text(words(options.view));
-                let shown = combo.show_ui(ui, |ui| {
+                let shown = list_ui(ui, combo, |entries| {
                     for view in std::iter::once(None).chain(VIEWS.into_iter().map(Some)) {
-                        ui.selectable_value(&mut options.view, view, words(view));
+                        entries.add_value(&mut options.view, view, words(view));
                     }
                 });
-                shown.response.labelled_by(label.id);
+                shown.labelled_by(label.id);
                 ui.end_row();
                 ui.label(tr("Background"));
                 ui.checkbox(&mut options.cut_out, tr("none: transparent, without floor"));
@@ -143,12 +144,13 @@ fn smoothness_ui(ui: &mut egui::Ui, times: &mut u32) {
         _ => say!("{times} × {times} samples for each pixel", times),
     };
     let label = ui.label(tr("Smoothness"));
-    let shown = ComboBox::from_id_salt("times").selected_text(words(*times)).show_ui(ui, |ui| {
+    let combo = ComboBox::from_id_salt("times").selected_text(words(*times));
+    let shown = list_ui(ui, combo, |entries| {
         for choice in [1, 2, 4, Fineness::MOST_TIMES] {
-            ui.selectable_value(times, choice, words(choice));
+            entries.add_value(times, choice, words(choice));
         }
     });
-    shown.response.labelled_by(label.id).on_hover_text(tr("Smoother edges and threads, drawn more slowly"));
+    shown.labelled_by(label.id).on_hover_text(tr("Smoother edges and threads, drawn more slowly"));
 }
 
 /// Buttons for common sizes.

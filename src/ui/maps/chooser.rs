@@ -1,13 +1,13 @@
 //! The menu button that chooses a map.
 
-use egui::{ComboBox, Id};
+use egui::ComboBox;
 
 use crate::fit::MapKind;
 use crate::ui::actions::Action;
 use crate::ui::actions::asks::{Ask, Asks};
 use crate::ui::actions::context::FrameContext;
 use crate::ui::language::{say, tr};
-use crate::ui::maps::list_keys::list_keys;
+use crate::ui::list::{Entries, list_ui};
 
 /// All choices: no map, and every map.
 pub fn choices() -> impl Iterator<Item = Option<MapKind>> {
@@ -20,31 +20,23 @@ pub fn chooser_ui(ui: &mut egui::Ui, now: &FrameContext, asks: &mut Asks) {
     let why_not = now.why_not(Action::Map(Some(MapKind::Ease)));
     ui.add_enabled_ui(why_not.is_none() || now.map.is_some(), |ui| {
         let combo = ComboBox::from_id_salt("map").selected_text(text).width(112.0).height(320.0);
-        let shown = combo.show_ui(ui, |ui| list_ui(ui, now, asks));
+        let shown = list_ui(ui, combo, |entries| fill(entries, now, asks));
         let words = say!("Map: {text}", text);
         let enabled = ui.is_enabled();
-        shown.response.widget_info(|| {
+        shown.widget_info(|| {
             egui::WidgetInfo::labeled(egui::accesskit::Role::ComboBox, enabled, words.clone())
         });
         let tip = tr("Colour the cloth by its strain, its ease or its curves");
-        shown.response.on_hover_text(tip).on_disabled_hover_text(why_not.unwrap_or_default());
+        shown.on_hover_text(tip).on_disabled_hover_text(why_not.unwrap_or_default());
     });
 }
 
-/// Draws the list.
-fn list_ui(ui: &mut egui::Ui, now: &FrameContext, asks: &mut Asks) {
-    let mut entries = Vec::new();
+/// Adds all maps to the list.
+fn fill(entries: &mut Entries<'_>, now: &FrameContext, asks: &mut Asks) {
     for kind in choices() {
         let action = Action::Map(kind);
-        let text = tr(action.row().text);
-        let entry = ui.selectable_label(now.map == kind, text);
-        if entry.clicked() {
+        if entries.add(now.map == kind, tr(action.row().text)).clicked() {
             asks.push(Ask::Act(action));
-            // Only the mouse closes it by itself.
-            ui.close();
         }
-        entries.push((entry, text));
     }
-    let present = choices().position(|kind| kind == now.map).unwrap_or(0);
-    list_keys(ui, Id::unique("keys of the list of maps"), &entries, present);
 }

@@ -6,7 +6,6 @@ mod chooser;
 mod comparison;
 mod flat;
 mod legend;
-mod list_keys;
 mod opening;
 mod probe;
 mod table;

@@ -7,6 +7,7 @@ use crate::ui::actions::asks::Asks;
 use crate::ui::actions::context::FrameContext;
 use crate::ui::language::fields::slider;
 use crate::ui::language::{number, tr};
+use crate::ui::list::list_ui;
 use crate::ui::panels::context::PanelContext;
 use crate::ui::panels::pose_slider::{follow, let_go};
 
@@ -68,9 +69,9 @@ impl AnimationPanel {
         self.animation = self.animation.min(names.len().saturating_sub(1));
         let chosen = names.get(self.animation).cloned().unwrap_or_default();
         let combo = ComboBox::from_label(tr("Animation")).selected_text(chosen).width(WIDTH);
-        combo.show_ui(ui, |ui| {
+        list_ui(ui, combo, |entries| {
             for (i, name) in names.iter().enumerate() {
-                if ui.selectable_label(i == self.animation, name).clicked() {
+                if entries.add(i == self.animation, name).clicked() {
                     (self.animation, self.seconds, self.playing) = (i, 0.0, None);
                     self.go(false, asks);
                 }

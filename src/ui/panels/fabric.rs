@@ -11,6 +11,7 @@ use crate::ui::actions::Action;
 use crate::ui::actions::asks::{Ask, Asks};
 use crate::ui::language::fields::drag_value;
 use crate::ui::language::{counted, say, tr, unbroken};
+use crate::ui::list::list_ui;
 use crate::ui::panels::artwork::surface_ui;
 use crate::ui::panels::colours::{SWATCH, colour_ui, panel_menu};
 use crate::ui::panels::context::PanelContext;
@@ -62,15 +63,15 @@ fn fabric_list(ui: &mut Ui, told: &PanelContext<'_>, piece: Option<PieceId>, nam
     let shown =
         own.map_or(RichText::new(tr("as all")).color(told.palette.weak), |own| RichText::new(tr(own)));
     let combo = ComboBox::from_id_salt(("fabric", piece)).selected_text(shown).width(WIDTH);
-    let combo = combo.show_ui(ui, |ui| {
+    let shown = list_ui(ui, combo, |entries| {
         let mut set = |fabric: Option<&str>| {
             asks.push(Ask::Do(Command::SetFabric { piece, fabric: fabric.map(str::to_owned) }));
         };
-        if piece.is_some() && ui.selectable_label(own.is_none(), tr("as all")).clicked() {
+        if piece.is_some() && entries.add(own.is_none(), tr("as all")).clicked() {
             set(None);
         }
         for fabric in Fabric::presets() {
-            let row = ui.selectable_label(own == Some(&fabric.name), tr(&fabric.name));
+            let row = entries.add(own == Some(&fabric.name), tr(&fabric.name));
             if row.on_hover_text(figures(fabric)).clicked() {
                 set(Some(&fabric.name));
             }
@@ -78,7 +79,7 @@ fn fabric_list(ui: &mut Ui, told: &PanelContext<'_>, piece: Option<PieceId>, nam
     });
     // A label of the box's own would widen the panel by a long name; cut short, left and right would be the same.
     let label = ui.add(egui::Label::new(name).wrap());
-    combo.response.labelled_by(label.id);
+    shown.labelled_by(label.id);
 }
 
 /// A button in the colour of the piece that opens its colour and print.
@@ -157,15 +158,15 @@ fn colourways_ui(ui: &mut Ui, told: &PanelContext<'_>, asks: &mut Asks) {
     ui.horizontal(|ui| {
         let shown = RichText::new(worn.unwrap_or(tr("not kept"))).color(told.palette.weak);
         let combo = ComboBox::from_label(tr("Colourway")).selected_text(shown).width(WIDTH);
-        combo.show_ui(ui, |ui| {
+        list_ui(ui, combo, |entries| {
             for colourway in document.colourways.iter() {
                 let name = &colourway.name;
-                if ui.selectable_label(worn == Some(name), name).clicked() {
+                if entries.add(worn == Some(name), name).clicked() {
                     asks.push(Ask::Do(Command::WearColourway { name: name.clone() }));
                 }
             }
             if let Some(name) = worn
-                && ui.button(say!("Delete {name}", name)).clicked()
+                && entries.add_button(say!("Delete {name}", name)).clicked()
             {
                 asks.push(Ask::Do(Command::DeleteColourway { name: name.to_owned() }));
             }

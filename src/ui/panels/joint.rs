@@ -8,6 +8,7 @@ use crate::body::pose::anatomy::{Anatomy, Limb, mirrored_to_the_right};
 use crate::ui::actions::asks::{Ask, Asks};
 use crate::ui::language::fields::slider;
 use crate::ui::language::tr;
+use crate::ui::list::list_ui;
 use crate::ui::panels::context::PanelContext;
 use crate::ui::panels::pose_slider::{follow, let_go, posed};
 
@@ -59,9 +60,9 @@ impl JointPanel {
     fn list_ui(&mut self, ui: &mut egui::Ui) {
         let chosen = self.limb.title();
         let combo = ComboBox::from_label(tr("Joint")).selected_text(tr(&chosen)).width(WIDTH);
-        combo.height(360.0).show_ui(ui, |ui| {
+        list_ui(ui, combo.height(360.0), |entries| {
             for limb in Limb::all() {
-                if ui.selectable_label(limb == self.limb, tr(&limb.title())).clicked() {
+                if entries.add(limb == self.limb, tr(&limb.title())).clicked() {
                     (self.limb, self.given) = (limb, None);
                 }
             }

@@ -13,6 +13,7 @@ use crate::session::Command;
 use crate::ui::actions::Action;
 use crate::ui::actions::asks::{Ask, Asks};
 use crate::ui::language::{say, signed, tr};
+use crate::ui::list::list_ui;
 use crate::ui::look::signs::{Sign, sign_button};
 use crate::ui::panels::context::PanelContext;
 use crate::ui::panels::fastenings::zip_ui;
@@ -377,15 +378,15 @@ fn corner_ui(ui: &mut egui::Ui, told: &PanelContext<'_>, point: PointRef, piece:
     let old = piece.outline[point.point].corner;
     let label = weak(ui, told, tr("Corner of the allowance"));
     let combo = ComboBox::from_id_salt("allowance corner").selected_text(words(old)).width(170.0);
-    let shown = combo.show_ui(ui, |ui| {
+    let shown = list_ui(ui, combo, |entries| {
         for corner in AllowanceCorner::ALL {
-            let entry = ui.selectable_label(corner == old, words(corner)).on_hover_text(tip(corner));
+            let entry = entries.add(corner == old, words(corner)).on_hover_text(tip(corner));
             if entry.clicked() && corner != old {
                 asks.push(ask(vec![PatternEdit::SetCorner { point, corner }]));
             }
         }
     });
-    shown.response.labelled_by(label.id);
+    shown.labelled_by(label.id);
 }
 
 fn seam_ui(ui: &mut egui::Ui, told: &PanelContext<'_>, id: SeamId, asks: &mut Asks) {

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use egui::{Button, ComboBox, RichText};
+use egui::{ComboBox, RichText};
 
 use crate::body::Measurements;
 use crate::draft::SIZE_TABLES;
@@ -11,6 +11,7 @@ use crate::session::{BodyChoice, Command};
 use crate::ui::actions::Action;
 use crate::ui::actions::asks::{Ask, Asks};
 use crate::ui::language::{said, tr};
+use crate::ui::list::{Entries, list_ui};
 use crate::ui::panels::context::PanelContext;
 
 /// Width of the list, points.
@@ -48,9 +49,10 @@ impl SizePanel {
             let is_taken = |size: &Size| body.measurements() == Some(size.measurements);
             let taken = sizes.iter().find(|size| is_taken(size));
             let taken = taken.map_or(tr("none of these"), |size| &size.name);
-            ComboBox::from_label(tr("Size")).selected_text(taken).width(WIDTH).show_ui(ui, |ui| {
+            let combo = ComboBox::from_label(tr("Size")).selected_text(taken).width(WIDTH);
+            list_ui(ui, combo, |entries| {
                 for size in sizes {
-                    size_ui(ui, size, is_taken(size), body, asks);
+                    add_size(entries, size, is_taken(size), body, asks);
                 }
             });
         });
@@ -58,9 +60,9 @@ impl SizePanel {
     }
 }
 
-fn size_ui(ui: &mut egui::Ui, size: &Size, is_taken: bool, body: &BodyChoice, asks: &mut Asks) {
+fn add_size(entries: &mut Entries<'_>, size: &Size, is_taken: bool, body: &BodyChoice, asks: &mut Asks) {
     let checked = size.measurements.check();
-    let button = ui.add_enabled(checked.is_ok(), Button::selectable(is_taken, &size.name));
+    let button = entries.add_enabled(checked.is_ok(), is_taken, &size.name);
     match checked {
         Ok(()) => {
             let words = tr("The mannequin is built to this size; marks and garment go along");

@@ -11,6 +11,7 @@ use crate::ui::language::choice::{Language, Languages};
 use crate::ui::language::fields::drag_value;
 use crate::ui::language::keys::shortcut_text;
 use crate::ui::language::{counted, say, tr};
+use crate::ui::list::list_ui;
 use crate::ui::look::scheme::Theme;
 use crate::ui::look::signs::{Sign, sign_button};
 use crate::ui::look::theme::Palette;
@@ -238,13 +239,14 @@ fn language_ui(ui: &mut egui::Ui, chosen: &mut Language, languages: &Languages) 
     let name = |code: &str| all.iter().find(|(known, _)| *known == code).map(|(_, name)| (*name).to_owned());
     let system = tr("As the system");
     let shown = chosen.0.as_deref().map_or(system.to_owned(), |code| name(code).unwrap_or(code.to_owned()));
-    let combo = ComboBox::from_id_salt("language").selected_text(&shown).show_ui(ui, |ui| {
-        ui.selectable_value(&mut chosen.0, None, system);
+    let combo = ComboBox::from_id_salt("language").selected_text(&shown);
+    let combo = list_ui(ui, combo, |entries| {
+        entries.add_value(&mut chosen.0, None, system);
         for (code, name) in &all {
-            ui.selectable_value(&mut chosen.0, Some((*code).to_owned()), *name);
+            entries.add_value(&mut chosen.0, Some((*code).to_owned()), *name);
         }
     });
-    combo_name(&combo.response, tr("Language"), &shown);
+    combo_name(&combo, tr("Language"), &shown);
 }
 
 fn general_ui(
@@ -269,12 +271,12 @@ fn general_ui(
             ui.label(tr("Size of everything"));
             let words = |percent: u16| format!("{percent} %");
             let combo = ComboBox::from_id_salt("scale").selected_text(words(preferences.scale.0));
-            let shown = combo.show_ui(ui, |ui| {
+            let shown = list_ui(ui, combo, |entries| {
                 for percent in Scale::ALL {
-                    ui.selectable_value(&mut preferences.scale, Scale(percent), words(percent));
+                    entries.add_value(&mut preferences.scale, Scale(percent), words(percent));
                 }
             });
-            combo_name(&shown.response, tr("Size of everything"), &words(preferences.scale.0));
+            combo_name(&shown, tr("Size of everything"), &words(preferences.scale.0));
             ui.end_row();
             ui.label(tr("Lengths in"));
             ui.horizontal(|ui| {
@@ -300,12 +302,12 @@ fn general_ui(
                 _ => counted(usize::from(seconds / 60), "every minute", "every {n} minutes"),
             };
             let combo = ComboBox::from_id_salt("copies").selected_text(words(preferences.copies.0));
-            let shown = combo.show_ui(ui, |ui| {
+            let shown = list_ui(ui, combo, |entries| {
                 for seconds in Copies::ALL {
-                    ui.selectable_value(&mut preferences.copies, Copies(seconds), words(seconds));
+                    entries.add_value(&mut preferences.copies, Copies(seconds), words(seconds));
                 }
             });
-            combo_name(&shown.response, tr("Copies of unsaved work"), &words(preferences.copies.0));
+            combo_name(&shown, tr("Copies of unsaved work"), &words(preferences.copies.0));
             ui.end_row();
             ui.label(tr("Large garments"));
             ui.checkbox(&mut preferences.card.0, tr("Drape on the graphics card")).on_hover_text(tr(
