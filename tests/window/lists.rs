@@ -2,7 +2,7 @@
 
 use egui::accesskit::Role;
 use toile::cloth::Fabric;
-use toile::session::Command;
+use toile::session::{Command, ImageFile};
 
 use super::*;
 
@@ -189,4 +189,30 @@ fn the_view_of_a_picture_is_chosen_by_keys() {
     type_letters(&mut window, "4");
     key(&mut window, Modifiers::NONE, Key::Space);
     is_closed(&window, "Smoothness", "4 × 4 samples for each pixel");
+}
+
+/// As a list that drops down it closed the menu that it was in.
+#[test]
+fn the_image_of_a_fabric_is_chosen_in_the_menu_of_its_colours() {
+    let mut window = window();
+    edit(&mut window, |app, _| {
+        let picture = image::RgbaImage::from_pixel(20, 10, image::Rgba([200, 30, 40, 255]));
+        for name in ["stripes.png", "dots.png"] {
+            let file = ImageFile::new(name, toile::render::png(&picture).expect("a file"));
+            app.session_mut().apply_alone(Command::AddImage { file: Arc::new(file) }).expect("an image");
+        }
+    });
+    let worn = |window: &Window| {
+        let document = app(window).session().document();
+        document.dyes.all.image.map(|own| document.artwork.images[&own.image].name.clone())
+    };
+    act(&mut window, "Colour and print of All pieces");
+    window.get_by_role_and_label(Role::CheckBox, "Image").click();
+    window.run_steps(4);
+    assert_eq!(worn(&window).as_deref(), Some("stripes.png"));
+    for name in ["dots.png", "stripes.png"] {
+        window.get_by_role_and_label(Role::Button, name).click();
+        window.run_steps(4);
+        assert_eq!(worn(&window).as_deref(), Some(name), "and the menu is still open");
+    }
 }

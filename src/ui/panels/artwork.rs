@@ -1,7 +1,7 @@
 //! The section of images, and of the graphics made of them.
 
 use egui::accesskit::Role;
-use egui::{Button, ComboBox, Response, RichText, Ui, WidgetInfo};
+use egui::{Button, Response, RichText, Ui, WidgetInfo};
 use glam::DVec2;
 
 use crate::geometry::ids::{GraphicId, ImageId, PieceId};
@@ -14,8 +14,8 @@ use crate::ui::language::fields::drag_value;
 use crate::ui::language::{said, say, tr};
 use crate::ui::panels::context::{PanelContext, problem_row};
 
-/// Width of lists, points.
-const WIDTH: f32 = 104.0;
+/// Largest height of the images of which a fabric has one, points: four names.
+const IMAGES_HEIGHT: f32 = 104.0;
 /// Width of a new graphic, metres.
 const FIRST_WIDTH: f64 = 0.1;
 /// Width of a repeat of an image on a fabric that has none yet, metres.
@@ -152,15 +152,12 @@ pub fn surface_ui(ui: &mut Ui, artwork: &Artwork, dye: &mut Dye) {
         dye.image = has_image.then_some(Repeated { image: first, width_m: FIRST_REPEAT, angle: 0.0 });
     }
     let Some(own) = &mut dye.image else { return };
-    let name = |image: ImageId| artwork.images.get(&image).map_or("", |file| &file.name);
-    ComboBox::from_id_salt("image of the fabric").selected_text(name(own.image)).width(WIDTH).show_ui(
-        ui,
-        |ui| {
-            for (&image, file) in &artwork.images {
-                ui.selectable_value(&mut own.image, image, &file.name);
-            }
-        },
-    );
+    // A list that drops down would close the menu that this is in.
+    egui::ScrollArea::vertical().id_salt("image of the fabric").max_height(IMAGES_HEIGHT).show(ui, |ui| {
+        for (&image, file) in &artwork.images {
+            ui.selectable_value(&mut own.image, image, &file.name);
+        }
+    });
     ui.horizontal(|ui| {
         millimetres(ui, &format!("{} ", tr("every")), &mut own.width_m, widths());
         degrees_ui(ui, &mut own.angle);
