@@ -19,6 +19,9 @@ pub struct Opening {
     pub height: f64,
     /// Whether the body passes through the opening, which is closed by a fan of triangles from its centroid.
     pub body_through: bool,
+    /// Whether all of it is lower than the body, which therefore ends above it.
+    #[serde(default)]
+    pub below_body: bool,
     /// Mean of its vertices, metres.
     #[serde(skip)]
     pub middle: DVec3,
@@ -33,6 +36,7 @@ pub(super) fn openings(
     flat: impl Fn([u32; 2]) -> f64,
     skin: impl Fn(u32) -> bool,
 ) -> Vec<Opening> {
+    let lowest = body.bounds().0.y;
     let mut found: Vec<Opening> = border_loops(cloth)
         .into_iter()
         .map(|chain| {
@@ -44,6 +48,7 @@ pub(super) fn openings(
                 height: points.iter().map(|p| p.y).sum::<f64>() / n as f64,
                 middle: points.iter().sum::<DVec3>() / n as f64,
                 body_through: passes(&points, body, tree, &skin),
+                below_body: points.iter().all(|p| p.y < lowest),
             }
         })
         .collect();
@@ -70,6 +75,8 @@ fn passes(points: &[DVec3], body: &TriMesh, tree: &Bvh, skin: &impl Fn(u32) -> b
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::fit::Report;
+    use crate::geometry::shapes::icosphere;
 
     #[test]
     fn a_strip_joined_round_has_two_borders() {
@@ -93,5 +100,47 @@ mod tests {
         assert!(open.iter().all(|o| (o.length - octagon).abs() < 1e-12 && !o.body_through));
         assert!((open[0].height - open[1].height).abs() == 1.0);
         assert!(open.iter().all(|o| o.flat_length == 4.0));
+    }
+    #[test]
+    fn a_hem_may_hang_lower_than_the_body_it_is_on() {
+        let passed = Opening { body_through: true, ..Opening::default() };
+        let hem = Opening { below_body: true, ..Opening::default() };
+        let cuff = Opening::default();
+        let missed = |openings: &[Opening]| {
+            let report = Report { openings: openings.to_vec(), ..Report::default() };
+            report.missed_openings().map(|(i, _)| i).collect::<Vec<_>>()
+        };
+        assert!(missed(&[passed, hem]).is_empty());
+        assert_eq!(missed(&[passed, hem, cuff]), [2], "it lies beside an arm");
+        assert_eq!(missed(&[hem, hem]), [0, 1], "all of it has fallen off");
+        assert!(missed(&[hem]).is_empty(), "a cloth");
+    }
+
+    #[test]
+    fn an_opening_is_below_the_body_where_all_of_it_is() {
+        let (mut mesh, n) = (TriMesh::default(), 8u32);
+        for (k, y) in [0.0, -0.1, -0.2].into_iter().enumerate() {
+            let ring = (0..n).map(|i| f64::from(i) / f64::from(n) * std::f64::consts::TAU);
+            // The lowest ring is tilted.
+            let tilt = if k == 2 { 0.3 } else { 0.0 };
+            mesh.positions.extend(ring.map(|a| DVec3::new(a.sin(), y + tilt * a.sin(), a.cos())));
+        }
+        let mut body = icosphere(0.05, 1);
+        let below = |mesh: &TriMesh, body: &TriMesh| {
+            let found = openings(mesh, body, &body.tree(), |_| 0.5, |_| true);
+            found.iter().map(|o| (o.below_body, o.body_through)).collect::<Vec<_>>()
+        };
+        let band = |mesh: &TriMesh, rows: [u32; 2]| {
+            let [upper, lower] = rows.map(|row| row * n);
+            let quads = (0..n).map(|k| [upper + k, upper + (k + 1) % n, lower + k, lower + (k + 1) % n]);
+            let triangles = quads.flat_map(|[a, b, c, d]| [[a, c, b], [b, c, d]]).collect();
+            TriMesh { positions: mesh.positions.clone(), triangles }
+        };
+        let mut straight = below(&band(&mesh, [0, 1]), &body);
+        straight.sort_unstable();
+        assert_eq!(straight, [(false, true), (true, false)]);
+        assert!(below(&band(&mesh, [0, 2]), &body).iter().all(|(below, _)| !below), "it reaches up");
+        body.positions.iter_mut().for_each(|p| p.y -= 1.0);
+        assert!(below(&band(&mesh, [0, 1]), &body).iter().all(|(below, _)| !below), "it hangs over the body");
     }
 }

@@ -104,10 +104,12 @@ impl Report {
 
     /// The openings through which the body should pass and does not, with their indices. A single border is that of a cloth or a
     /// cape, through which it need not pass. A garment has several, and the body passes through each: where it does not, a sleeve is
-    /// on one side of its arm, or a seam has a hole.
+    /// on one side of its arm, or a seam has a hole. But the hem of what is on the body may hang lower than its feet, or than a bust.
     pub fn missed_openings(&self) -> impl Iterator<Item = (usize, &Opening)> {
         let all = if self.openings.len() < 2 { &[] } else { &self.openings[..] };
-        all.iter().enumerate().filter(|(_, opening)| !opening.body_through)
+        let is_on = all.iter().any(|opening| opening.body_through);
+        let is_missed = move |opening: &Opening| !opening.body_through && !(is_on && opening.below_body);
+        all.iter().enumerate().filter(move |(_, opening)| is_missed(opening))
     }
 }
 
