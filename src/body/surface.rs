@@ -53,6 +53,7 @@ struct Lazily {
     parry: OnceLock<Option<ParryMesh>>,
     winding: OnceLock<WindingTree>,
     landmarks: OnceLock<Option<Landmarks>>,
+    floor: OnceLock<Option<f64>>,
     readings: OnceLock<Option<Vec<Reading>>>,
     self_crossings: OnceLock<Vec<[u32; 2]>>,
 }
@@ -98,7 +99,10 @@ impl Surface {
         }
         let mesh = TriMesh { positions, triangles: self.mesh.triangles.clone() };
         let closest = self.closest.moved(&mesh);
-        Some(Self::with(mesh, Arc::clone(&self.adjacency), closest))
+        let reposed = Self::with(mesh, Arc::clone(&self.adjacency), closest);
+        let floor = self.floor().map(|floor| floor.min(reposed.lower.y));
+        let lazily = Lazily { floor: OnceLock::from(floor), ..reposed.lazily };
+        Some(Self { lazily, ..reposed })
     }
 
     fn with(mesh: TriMesh, adjacency: Arc<Adjacency>, closest: ClosestTree) -> Self {
@@ -135,6 +139,12 @@ impl Surface {
     /// The landmarks; None where the body does not look human.
     pub fn landmarks(&self) -> Option<&Landmarks> {
         self.lazily.landmarks.get_or_init(|| landmarks::found(&self.mesh)).as_ref()
+    }
+
+    /// Height of the floor that the body stands on, metres: that of its lowest point, or of its lowest point as it was built where it
+    /// has another pose. None for what does not look human, a bust for example: nobody knows how high that stands.
+    pub fn floor(&self) -> Option<f64> {
+        *self.lazily.floor.get_or_init(|| self.landmarks().map(|_| self.lower.y))
     }
 
     /// The measurements read on the body; None where it does not look human.

@@ -315,6 +315,11 @@ impl DrapedGarment {
         self.fixed.offset
     }
 
+    /// Height of the floor, metres. None where there is none, and for cloth that floats: it may be placed lower.
+    fn floor(&self) -> Option<f64> {
+        self.collider.surface.floor().filter(|_| !self.floats)
+    }
+
     /// Number of small steps in a tick.
     pub fn substeps(&self) -> usize {
         self.substeps
@@ -480,6 +485,7 @@ impl DrapedGarment {
             gravity: if self.floats { DVec3::ZERO } else { GRAVITY },
             damping: fixed.damping + calms + gentle(self.age),
             collider: Some(&collider),
+            floor: self.floor(),
             offset: fixed.offset,
             friction: &fixed.friction,
             grip,

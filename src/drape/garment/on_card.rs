@@ -1,6 +1,6 @@
 //! Draping on a graphics card, where one may be used.
 //!
-//! A card makes the small steps of cloth that neither intersects itself nor the body, and on which nothing acts that is not
+//! A card makes the small steps of cloth that is above the floor, intersects neither itself nor the body, and on which nothing acts that is not
 //! [`is_plain`](crate::drape::solver::small_steps::SmallSteps::is_plain). Everything else, and every tick that the card could not
 //! make, the processor does. What a card has moved is not the same on every machine, see [`crate::card`].
 
@@ -11,7 +11,8 @@ use rayon::prelude::*;
 
 use crate::body::Surface;
 use crate::card::{Body, Card, CardFault, CardSlot, CardSteps, Cloth, Hand, Span};
-use crate::drape::garment::{Begun, DrapedGarment, Fixed};
+use crate::cloth::GRAVITY;
+use crate::drape::garment::{Begun, DrapedGarment, Fixed, TICK};
 use crate::drape::solver::advance::Advance;
 use crate::drape::solver::surroundings::{EASE, Surroundings};
 use crate::geometry::parallel::LEAST_SEARCHES;
@@ -67,16 +68,24 @@ impl DrapedGarment {
     /// Begins a tick on the card, if it can be made there: number of small steps.
     pub(super) fn steps_on_card(&mut self) -> Option<usize> {
         let can = !self.floats && self.rubs.is_none() && self.crossings == 0 && self.small.is_plain();
+        let is_near_floor = self.card.is_some() && self.may_reach_floor();
         let card = self.card.as_mut()?;
         if !can || card.pause > 0 {
             card.pause = card.pause.saturating_sub(1);
             return None;
         }
-        if !self.small.is_clean(&self.state.positions, &self.collider) {
+        if is_near_floor || !self.small.is_clean(&self.state.positions, &self.collider) {
             card.pause = PAUSE;
             return None;
         }
         Some(card.substeps)
+    }
+
+    /// Whether some of the cloth may come to the floor within a tick.
+    fn may_reach_floor(&self) -> bool {
+        let Some(floor) = self.floor() else { return false };
+        let lowest = self.state.positions.iter().map(|x| x.y).fold(f64::INFINITY, f64::min);
+        lowest - self.fixed.offset < floor + (self.progress.speed + GRAVITY.length() * TICK) * TICK
     }
 
     /// Makes some of the small steps of a tick on the card. Where that fails, the tick begins again on the processor.

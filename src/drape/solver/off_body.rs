@@ -1,5 +1,5 @@
 //! Collision of cloth with a body in small steps: every vertex is kept off the half-space by which the skin near it is approximated, with
-//! Coulomb friction, and off the other side of a crease of the skin.
+//! Coulomb friction, and off the other side of a crease of the skin; and off the floor.
 
 use glam::DVec3;
 
@@ -37,9 +37,11 @@ pub(super) struct Knowing<'a> {
 }
 
 impl Knowing<'_> {
-    /// Projects the vertices of `share` off the body, with friction. Returns the numbers of nearest-point queries made and saved.
+    /// Projects the vertices of `share` off the floor and the body, with friction. Where a body presses cloth into the floor, it is kept
+    /// off the body. Returns the numbers of nearest-point queries made and saved.
     pub fn collide(&self, scene: &Colliding<'_>, share: &mut Share<'_>) -> (u64, u64) {
         let Colliding { around, collider, left, part, small } = *scene;
+        let floor = around.floor.map(|floor| floor + around.offset);
         let (mut queries, mut skipped) = (0, 0);
         for (k, x) in share.x.iter_mut().enumerate() {
             let i = share.first + k;
@@ -47,6 +49,9 @@ impl Knowing<'_> {
                 continue;
             }
             let (plane, before) = (&mut share.planes[k], &mut share.before[k]);
+            if let Some(height) = floor.filter(|height| x.y < *height) {
+                self.keep_off(scene, i, (x, before), (DVec3::Y, height), |_| DVec3::ZERO);
+            }
             if x.distance_squared(plane.place) > plane.good_for * plane.good_for {
                 queries += 1;
                 let seen = *plane;
@@ -60,27 +65,8 @@ impl Knowing<'_> {
                 skipped += 1;
                 continue;
             }
-            let mut depth = plane.height - plane.normal.dot(*x);
-            if self.eases {
-                let old = plane.height - plane.normal.dot(*before);
-                if old > 0.0 {
-                    let eased = old.min(EASE * small);
-                    depth -= old - eased;
-                    *before += plane.normal * eased;
-                }
-            }
-            if depth > 0.0 {
-                *x += plane.normal * depth;
-                let carried = collider.carried_near(*before) * part;
-                let slip = *x - *before - carried;
-                let slip = slip - plane.normal * slip.dot(plane.normal);
-                let length = slip.length();
-                // Pressure of elastic is known, and not limited.
-                let pulled = self.pulled.get(i).copied().unwrap_or(0.0);
-                let hold =
-                    around.friction[i] * depth.min(around.grip * self.spread[i] * small * small + pulled);
-                *x -= if length <= hold { slip } else { slip * (hold / length) };
-            }
+            let carried = |at: DVec3| collider.carried_near(at) * part;
+            self.keep_off(scene, i, (x, before), (plane.normal, plane.height), carried);
         }
         let reach = CREASE_REACH * around.offset;
         share
@@ -95,6 +81,39 @@ impl Knowing<'_> {
             share.before[k] += way;
         }
         (queries, skipped)
+    }
+
+    /// Projects vertex `i`, at `x` and `before` the small step at `before`, off the half-space n·x ≥ height, with friction. `carried` gives
+    /// how far what is behind it moves in the small step near a point, metres.
+    fn keep_off(
+        &self,
+        scene: &Colliding<'_>,
+        i: usize,
+        (x, before): (&mut DVec3, &mut DVec3),
+        (normal, height): (DVec3, f64),
+        carried: impl FnOnce(DVec3) -> DVec3,
+    ) {
+        let Colliding { around, small, .. } = *scene;
+        let mut depth = height - normal.dot(*x);
+        if self.eases {
+            let old = height - normal.dot(*before);
+            if old > 0.0 {
+                let eased = old.min(EASE * small);
+                depth -= old - eased;
+                *before += normal * eased;
+            }
+        }
+        if depth <= 0.0 {
+            return;
+        }
+        *x += normal * depth;
+        let slip = *x - *before - carried(*before);
+        let slip = slip - normal * slip.dot(normal);
+        let length = slip.length();
+        // Pressure of elastic is known, and not limited.
+        let pulled = self.pulled.get(i).copied().unwrap_or(0.0);
+        let hold = around.friction[i] * depth.min(around.grip * self.spread[i] * small * small + pulled);
+        *x -= if length <= hold { slip } else { slip * (hold / length) };
     }
 }
 

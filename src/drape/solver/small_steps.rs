@@ -249,6 +249,7 @@ impl SmallSteps {
             gravity: scene.gravity,
             damping: scene.damping,
             collider: scene.collider.as_ref(),
+            floor: None,
             offset,
             friction: &friction,
             grip: f64::INFINITY,

@@ -24,7 +24,9 @@ pub struct Surroundings<'a> {
     pub damping: f64,
     /// The body, if any.
     pub collider: Option<&'a Collider>,
-    /// Distance kept from the body, metres.
+    /// Height of the floor, metres, if there is one.
+    pub floor: Option<f64>,
+    /// Distance kept from the body and the floor, metres.
     pub offset: f64,
     /// Coulomb friction coefficient per vertex.
     pub friction: &'a [f64],

@@ -614,7 +614,7 @@ fn ground(body: &Surface) -> Ground {
     let (lower, upper) = body.bounds();
     let middle = (lower + upper) / 2.0;
     Ground {
-        height: lower.y as f32,
+        height: body.floor().unwrap_or(lower.y) as f32,
         centre: Vec2::new(middle.x as f32, middle.z as f32),
         radius: ((upper - lower).max_element() * 1.15) as f32,
     }

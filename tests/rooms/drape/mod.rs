@@ -6,6 +6,7 @@ mod card;
 mod crossings;
 mod cusick;
 mod elastic;
+mod floor;
 mod folds;
 mod inflates;
 mod meshes;
