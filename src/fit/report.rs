@@ -108,8 +108,8 @@ impl Report {
     pub fn missed_openings(&self) -> impl Iterator<Item = (usize, &Opening)> {
         let all = if self.openings.len() < 2 { &[] } else { &self.openings[..] };
         let is_on = all.iter().any(|opening| opening.body_through);
-        let is_missed = move |opening: &Opening| !opening.body_through && !(is_on && opening.below_body);
-        all.iter().enumerate().filter(move |(_, opening)| is_missed(opening))
+        let is_right = move |opening: &Opening| opening.body_through || (is_on && opening.below_body);
+        all.iter().enumerate().filter(move |(_, opening)| !is_right(opening))
     }
 }
 
