@@ -101,6 +101,7 @@ mod tests {
         assert!((open[0].height - open[1].height).abs() == 1.0);
         assert!(open.iter().all(|o| o.flat_length == 4.0));
     }
+
     #[test]
     fn a_hem_may_hang_lower_than_the_body_it_is_on() {
         let passed = Opening { body_through: true, ..Opening::default() };

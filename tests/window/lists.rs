@@ -13,7 +13,7 @@ fn open(window: &mut Window, list: &str) {
     key(window, Modifiers::NONE, Key::Enter);
 }
 
-fn type_letters(window: &mut Window, letters: &str) {
+pub fn type_letters(window: &mut Window, letters: &str) {
     for letter in letters.chars() {
         window.event(Event::Text(letter.to_string()));
         window.run_steps(3);
@@ -22,7 +22,7 @@ fn type_letters(window: &mut Window, letters: &str) {
 
 /// Checks which entry of the open list has the keyboard.
 #[track_caller]
-fn is_at(window: &Window, entry: &str) {
+pub fn is_at(window: &Window, entry: &str) {
     assert!(window.get_by_role_and_label(Role::Button, entry).is_focused(), "{entry}");
 }
 

@@ -6,6 +6,7 @@ use toile::session::{Dressed, project_file};
 
 use super::files::read_by;
 use super::hand::dressed_window;
+use super::lists::{is_at, type_letters};
 use super::*;
 
 fn choose(window: &mut Window, entry: &str) {
@@ -382,10 +383,6 @@ fn keys_lead_through_the_list_from_the_present_map() {
     choose(&mut window, "Change of area");
     window.get_by_label("Map: Area").click();
     window.run_steps(4);
-    let is_at = |window: &Window, label: &str| {
-        let entry = window.get_by_role_and_label(Role::Button, label);
-        assert!(entry.accesskit_node().is_focused(), "{label}");
-    };
     is_at(&window, "Change of area");
     for (pressed, label) in [
         (Key::ArrowDown, "Ease: gap to the body"),
@@ -400,8 +397,7 @@ fn keys_lead_through_the_list_from_the_present_map() {
         is_at(&window, label);
     }
     for (typed, label) in [("s", "Shear"), ("t", "Strain along seams"), ("m", "Mean curvature")] {
-        window.event(Event::Text(typed.to_owned()));
-        window.run_steps(3);
+        type_letters(&mut window, typed);
         is_at(&window, label);
     }
     key(&mut window, Modifiers::NONE, Key::Enter);

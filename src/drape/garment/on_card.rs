@@ -1,8 +1,8 @@
 //! Draping on a graphics card, where one may be used.
 //!
-//! A card makes the small steps of cloth that is above the floor, intersects neither itself nor the body, and on which nothing acts that is not
-//! [`is_plain`](crate::drape::solver::small_steps::SmallSteps::is_plain). Everything else, and every tick that the card could not
-//! make, the processor does. What a card has moved is not the same on every machine, see [`crate::card`].
+//! A card makes the small steps of cloth that is above the floor, that intersects neither itself nor the body, and on which nothing
+//! acts that is not [`is_plain`](crate::drape::solver::small_steps::SmallSteps::is_plain). Everything else, and every tick that the
+//! card could not make, the processor does. What a card has moved is not the same on every machine, see [`crate::card`].
 
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
