@@ -21,8 +21,7 @@ pub(super) struct Plan {
     pub growing_contact: f64,
     /// Number of steps by which a new vertex is pushed out of the body before it goes to the nearest skin.
     pub pushes: usize,
-    /// Whether layers that intersect while growing are separated at once, and not only when all cloth is placed: deep
-    /// folds need it.
+    /// Whether layers that intersect while growing are separated at once, and not only when all cloth is placed.
     pub part: bool,
     /// Whether later tiers grow along the limbs that their seams go round.
     pub along_limbs: bool,
@@ -31,16 +30,15 @@ pub(super) struct Plan {
     pub contact: f64,
 }
 
-/// The plans in the order in which they are tried, the quickest first; they are tried on the coarsest mesh.
-pub(super) const PLANS: [Plan; 8] = [
+/// The plans in the order in which they are tried, on the coarsest mesh. Of 86 garments the first served 66, the second 9 more, which
+/// slip through a limb with light contact, and the next two 4 more; the other 7 were served by none of eight plans. The last is for deep
+/// folds, such as those of a flared skirt in a coarse mesh.
+pub(super) const PLANS: [Plan; 5] = [
     PLAIN,
-    Plan { part: true, ..PLAIN },
-    Plan { pushes: 10, ..PLAIN },
-    Plan { contact: HEAVY_CONTACT, ..PLAIN },
-    Plan { pushes: 10, ..THOROUGH },
     Plan { contact: HEAVY_CONTACT, ..THOROUGH },
     Plan { along_limbs: true, contact: HEAVY_CONTACT, ..PLAIN },
     Plan { along_limbs: true, contact: HEAVY_CONTACT, ..THOROUGH },
+    Plan { part: true, ..PLAIN },
 ];
 /// The quickest plan, with a light contact.
 pub(super) const PLAIN: Plan = Plan {

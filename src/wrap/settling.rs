@@ -54,6 +54,8 @@ pub(super) struct Settling {
     energy: f64,
     /// Whether the energy still changed after the first quiet steps.
     creeps: bool,
+    /// Number of faults when it was last looked at, see [`Settling::is_to_be_looked_at`].
+    pub faults: Option<usize>,
 }
 
 impl Settling {
@@ -61,7 +63,8 @@ impl Settling {
     pub fn new(draft: bool) -> Self {
         let limits = if draft { DRAFT } else { FINE };
         let until = limits.steps;
-        Self { done: 0, crossed: true, limits, quiet: 0, mends: 0, until, energy: 0.0, creeps: false }
+        let (energy, creeps, faults) = (0.0, false, None);
+        Self { done: 0, crossed: true, limits, quiet: 0, mends: 0, until, energy, creeps, faults }
     }
 
     /// Settling of cloth that is roughly in place, with gravity from the beginning.
@@ -78,6 +81,13 @@ impl Settling {
     /// Whether settling is in its first part, without gravity.
     pub fn is_first(&self) -> bool {
         self.done < self.limits.light_steps
+    }
+
+    /// Whether faults are to be counted after this step, to tell whether they get fewer: as long after gravity began, which makes some
+    /// that go again, as a repair takes, and then whenever as many steps are done as the first part has.
+    pub fn is_to_be_looked_at(&self) -> bool {
+        let calm = self.limits.light_steps + self.limits.steps_per_mend;
+        self.done >= calm && (self.done - calm).is_multiple_of(self.limits.light_steps)
     }
 
     /// Records a step in which the largest move was `moved` edge lengths. Returns whether the cloth is at rest now.
@@ -115,5 +125,24 @@ impl Settling {
     pub fn mended(self) -> Self {
         let (mends, until) = (self.mends + 1, self.done + self.limits.steps_per_mend);
         Self { mends, until, quiet: 0, crossed: true, creeps: false, ..self.stepped() }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn faults_are_counted_a_while_after_gravity_began_and_then_now_and_then() {
+        let counted = |mut settling: Settling| {
+            let mut steps = Vec::new();
+            while settling.done < 300 {
+                steps.extend(settling.is_to_be_looked_at().then_some(settling.done));
+                settling = settling.stepped();
+            }
+            steps
+        };
+        assert_eq!(counted(Settling::new(false)), [105, 185, 265]);
+        assert_eq!(counted(Settling::new(true)), [105, 185, 265]);
     }
 }

@@ -74,6 +74,39 @@ fn coarse_to_fine_ends_where_one_mesh_does() {
     assert!(apart.fold(0.0, f64::max) < edge, "they lie up to an edge apart");
 }
 
+/// Its back laid upside down over its front, a tube crosses itself however it grows.
+#[test]
+fn plans_whose_faults_do_not_get_fewer_are_given_up_and_the_best_comes_to_rest() {
+    let width = std::f64::consts::PI * (RADIUS + OFFSET);
+    let pattern = tube(width, 0.5);
+    let (garment, _) = build(&pattern, 0.03);
+    let surface = Arc::new(Surface::new(cylinder(RADIUS, 1.0, 64, 30)).expect("a body"));
+    // Numbers of steps for which each plan settled, and whether all left many faults.
+    let settled = |marks: &Marks| {
+        let (dressing, mut state, problems) =
+            Dressing::new(Arc::new(garment.clone()), surface.clone(), marks, settings(&surface));
+        assert!(problems.is_empty(), "{problems:?}");
+        let (mut dressing, mut runs) = (dressing.expect("a dressing"), vec![0]);
+        for _ in 0..5000 {
+            match dressing.step(&mut state) {
+                Phase::Settling => *runs.last_mut().expect("a run") += 1,
+                Phase::Growing if runs.last() != Some(&0) => runs.push(0),
+                Phase::Growing => {}
+                Phase::AtRest => return (runs, dressing.has_failed()),
+            }
+        }
+        panic!("never at rest: {runs:?}")
+    };
+    let good = tube_marks(&pattern, width, 0.5, RADIUS, 0.25);
+    let mut crossed = good.clone();
+    crossed.body[1].points = good.body[0].points.iter().rev().copied().collect();
+    let ((good, good_failed), (crossed, crossed_failed)) = (settled(&good), settled(&crossed));
+    println!("{good:?} {crossed:?}");
+    assert!(good.len() == 1 && !good_failed && crossed_failed);
+    assert!(crossed.len() == 5 && crossed.iter().any(|&steps| steps < 300), "one is given up");
+    assert!(crossed.iter().any(|&steps| steps > 400), "what still changes is not");
+}
+
 #[test]
 fn a_loose_tube_closes_round_a_cylinder() {
     let width = 1.2 * std::f64::consts::PI * RADIUS;

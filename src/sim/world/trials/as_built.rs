@@ -124,7 +124,8 @@ mod tests {
     use crate::fit::Moved;
     use crate::sim::simulation::tests::ball;
     use crate::sim::start::{AsBuilt, Tried};
-    use crate::sim::world::trials::tests::{faulty, rested};
+    use crate::sim::world::trials::refined::tests::faulty;
+    use crate::sim::world::trials::tests::rested;
 
     /// Trials on a ball aside of where it is built, of which no start is left, and the world of cloth where it is built.
     fn on_built() -> (World, Trials, Arc<Surface>) {

@@ -2,6 +2,7 @@
 
 mod as_built;
 mod progress;
+mod refined;
 
 use std::sync::Arc;
 
@@ -21,6 +22,7 @@ use crate::wrap::suggested;
 pub use as_built::BodyAndPose;
 use as_built::{Try, tries};
 use progress::Overall;
+use refined::Refinement;
 
 /// Ticks for each layer after which a start is judged even if its cloth still moves, unless it is the only one. One that is done in
 /// parts counts as one, so that it does not depend on the number of triangles. Chosen by trial: with 1000 a shirt that came to rest
@@ -84,19 +86,6 @@ pub struct Trials {
     draped_fine: Option<(Arc<World>, Vec<Words>, usize)>,
 }
 
-/// Stages of settling in the garment's own mesh.
-#[derive(Clone, Copy, Debug, PartialEq)]
-enum Refinement {
-    /// From where the coarser mesh came to rest.
-    First,
-    /// Relaxing what had a fault then, which turns cloth that lies wrong side out.
-    Mending,
-    /// Draping once more.
-    Again,
-    /// Relaxing from where the coarser mesh came to rest: what has a fault when draped may have none without.
-    Undraped,
-}
-
 impl Trials {
     /// The source of the garment.
     pub(in crate::sim) fn source(&self) -> &Arc<GarmentSource> {
@@ -132,6 +121,11 @@ impl Trials {
         let is_last = self.best.is_none() && self.left.is_empty();
         let layers = u32::from(self.source.pattern.outermost()) + 1;
         self.ticks >= MOST_TICKS * layers && !is_last && self.refining.is_none()
+    }
+
+    /// Whether nothing was reached and no other start is left.
+    fn is_last(&self) -> bool {
+        self.best.is_none() && self.left.is_empty()
     }
 
     /// The number of the result that is being worked for, from 0.
@@ -290,7 +284,8 @@ impl World {
         let Some(mut trials) = self.trials.take() else { return };
         let now = Arc::make_mut(&mut trials);
         let broken = now.broken.take();
-        let is_over = broken.is_some() || self.lies_still() || now.is_out_of_time();
+        let is_over =
+            broken.is_some() || self.lies_still() || now.is_out_of_time() || self.leads_nowhere(now);
         if !is_over {
             now.ticks += u32::from(!self.is_mid_tick());
             // Kept in place in case this tick fails.
@@ -301,6 +296,12 @@ impl World {
             Some(world) => *self = world,
             None => self.trials = Some(trials),
         }
+    }
+
+    /// Whether the present start grew by every plan and has many faults, while another start can be taken.
+    fn leads_nowhere(&self, trials: &Trials) -> bool {
+        let has_failed = self.dressing.as_ref().is_some_and(|dressing| dressing.has_failed());
+        has_failed && !trials.draping && !trials.is_last() && trials.refining.is_none()
     }
 
     /// Records the failure of the present start, in words. False where none is being tried.
@@ -344,11 +345,15 @@ impl World {
     fn after_start(&mut self, trials: &mut Trials, broken: Option<Words>) -> Option<Self> {
         let mut faults: Vec<Words> = broken.into_iter().collect();
         let (mut places, mut is_astray) = (0, false);
+        let leads_nowhere = self.leads_nowhere(trials);
+        if leads_nowhere {
+            self.dressing = self.resumed();
+        }
         if faults.is_empty() {
             if let Some(judged) = self.judged() {
                 let words = |fault: Fault| fault.problem.in_words();
                 faults.extend(judged.faults.into_iter().map(words));
-                (places, is_astray) = (judged.places, judged.is_astray);
+                (places, is_astray) = (judged.places, judged.is_astray || leads_nowhere);
             }
             if trials.is_out_of_time() && !self.lies_still() {
                 faults.push(words!("it still moves"));
@@ -404,70 +409,6 @@ impl World {
             return None;
         }
         Some(Self { started: Some(Arc::new(started)), ..world })
-    }
-
-    /// The cloth in the garment's own mesh that is taken: this, which has these faults in so many places, or what it was before it was
-    /// relaxed once more.
-    fn ended(
-        &self,
-        trials: &mut Trials,
-        mut started: Started,
-        (faults, places): (Vec<Words>, usize),
-    ) -> Self {
-        let taken = &mut started.tried[started.taken];
-        let Some((draped, its_faults, its_places)) = trials.draped_fine.take() else {
-            (taken.faults, taken.places, taken.ticks) = (faults, places, taken.ticks + trials.ticks);
-            return Self { started: Some(Arc::new(started)), ..self.clone() };
-        };
-        (taken.faults, taken.places) = (its_faults, its_places);
-        let is_better = faults.is_empty();
-        let undraped = Tried { draped: false, faults, places, ticks: trials.ticks, ..taken.clone() };
-        started.tried.push(undraped);
-        if is_better {
-            started.taken = started.tried.len() - 1;
-            return Self { started: Some(Arc::new(started)), ..self.clone() };
-        }
-        Self { started: Some(Arc::new(started)), ..Arc::unwrap_or_clone(draped) }
-    }
-
-    /// The next start where `ended`, in the garment's own mesh, is only nearly clean; None where it is to be taken.
-    fn after_faulty(trials: &mut Trials, ended: &Self) -> Option<Self> {
-        let started = ended.started.as_ref().filter(|s| s.taken().is_nearly_clean())?;
-        trials.tried.clone_from(&started.tried);
-        trials.best = Some((Arc::new(Self { started: None, ..ended.clone() }), started.taken));
-        (trials.refinement, trials.coarse) = (Refinement::First, None);
-        Self::next_start(trials)
-    }
-
-    /// Goes on with draped cloth that had `faults` in the garment's own mesh. False when there is nothing more to try.
-    fn mends_refined(&mut self, trials: &mut Trials, faults: &[Words], places: usize) -> bool {
-        match trials.refinement {
-            Refinement::First if trials.draping && !faults.is_empty() && self.not_finite().is_none() => {
-                trials.refinement = Refinement::Mending;
-                self.draping = None;
-                self.settle();
-                true
-            }
-            Refinement::Mending => {
-                trials.refinement = Refinement::Again;
-                self.drape_for(None, Arc::clone(&trials.fabrics));
-                true
-            }
-            Refinement::Again if !faults.is_empty() && !trials.choice.draped => {
-                let (Some(coarse), Some(edge_length)) = (trials.coarse.take(), trials.fine) else {
-                    return false;
-                };
-                (trials.refinement, trials.draping) = (Refinement::Undraped, false);
-                if let Some(started) = &mut trials.refining {
-                    started.tried[started.taken].ticks += std::mem::take(&mut trials.ticks);
-                }
-                trials.draped_fine = Some((Arc::new(self.clone()), faults.to_vec(), places));
-                let undraped = Self { moved: Moved::Wrapped, hung_at: None, ..Arc::unwrap_or_clone(coarse) };
-                *self = undraped.refined(edge_length, Arc::clone(&trials.fabrics));
-                true
-            }
-            Refinement::First | Refinement::Again | Refinement::Undraped => false,
-        }
     }
 
     /// Faults and tight places of the cloth; None where there is no garment.
@@ -541,83 +482,6 @@ mod tests {
         world
     }
 
-    /// Trials whose cloth has a fault in the garment's own mesh although it was draped twice there, and the world of that cloth.
-    pub(super) fn faulty() -> (World, Trials) {
-        let begun = World::dressed(source(), ball().into(), cotton(), StartChoice::default());
-        let mut world = begun.expect("begun");
-        let mut trials = Arc::unwrap_or_clone(world.trials.take().expect("begun"));
-        let world = rested(world);
-        let (faults, places, ticks) = (Vec::new(), 0, 9);
-        let tried =
-            Tried { start: Start::Marks, draped: true, finer: false, as_built: None, faults, places, ticks };
-        trials.fine = Some(0.03);
-        trials.refining = Some(Started { tried: vec![tried], taken: 0 });
-        (trials.refinement, trials.draping) = (Refinement::Again, true);
-        trials.coarse = Some(Arc::new(World { moved: Moved::Draped, ..world.clone() }));
-        (World { moved: Moved::Draped, ..world }, trials)
-    }
-
-    #[test]
-    fn what_has_a_fault_draped_in_its_own_mesh_alone_is_taken_undraped() {
-        let (mut world, mut trials) = faulty();
-        let before = world.garment.as_ref().map_or(0, |garment| garment.triangles.len());
-        assert!(world.after_start(&mut trials, Some(Words::plain("it fell off"))).is_none());
-        assert_eq!(
-            (trials.refinement, trials.now(), trials.count()),
-            (Refinement::Undraped, (Start::Marks, false), 1)
-        );
-        let world = rested(world).after_start(&mut trials, None).expect("taken");
-        let started = world.started.expect("told");
-        let told: Vec<(bool, usize)> =
-            started.tried.iter().map(|tried| (tried.draped, tried.faults.len())).collect();
-        assert_eq!((told, started.taken), (vec![(true, 1), (false, 0)], 1));
-        assert!(
-            world.moved != Moved::Draped
-                && world.garment.is_some_and(|garment| garment.triangles.len() > before)
-        );
-    }
-
-    #[test]
-    fn draped_cloth_is_taken_where_relaxed_cloth_has_a_fault_too() {
-        let (mut world, mut trials) = faulty();
-        assert!(world.after_start(&mut trials, Some(Words::plain("it fell off"))).is_none());
-        let world =
-            rested(world).after_start(&mut trials, Some(Words::plain("it crosses itself"))).expect("taken");
-        let started = world.started.expect("told");
-        assert_eq!((started.taken, &started.taken().faults[..]), (0, &[Words::plain("it fell off")][..]));
-        assert!(world.moved == Moved::Draped && started.tried.len() == 2);
-    }
-
-    #[test]
-    fn other_starts_follow_where_a_few_places_have_faults_in_the_garments_own_mesh() {
-        let (world, mut trials) = faulty();
-        let ended = |places: usize| {
-            let (faults, ticks) = (vec![Words::plain("it crosses itself")], 9);
-            let tried = Tried {
-                start: Start::Marks,
-                draped: true,
-                finer: false,
-                as_built: None,
-                faults,
-                places,
-                ticks,
-            };
-            World { started: Some(Arc::new(Started { tried: vec![tried], taken: 0 })), ..world.clone() }
-        };
-        trials.left.clear();
-        assert!(World::after_faulty(&mut trials, &ended(Tried::FEW + 1)).is_none());
-        let own = trials.source.edge_length;
-        assert!(World::after_faulty(&mut trials, &ended(Tried::FEW)).is_some());
-        assert!(trials.finer && trials.source.edge_length == own * FINER && trials.tried.len() == 1);
-        trials.left.clear();
-        assert!(World::after_faulty(&mut trials, &ended(1)).is_none(), "once is enough");
-        trials.finer = false;
-        assert!(
-            World::after_faulty(&mut trials, &ended(0)).is_none(),
-            "a fault without a place is no chance"
-        );
-    }
-
     /// Sewn over each other, more layers take longer than any of several starts may.
     #[test]
     fn an_only_start_has_as_long_as_it_needs() {
@@ -633,14 +497,6 @@ mod tests {
         assert!(!trials.is_out_of_time(), "no other is left, and nothing was reached");
         trials.best = Some((Arc::default(), 0));
         assert!(trials.is_out_of_time(), "there is another result");
-    }
-
-    #[test]
-    fn only_draped_cloth_is_taken_where_that_is_asked_for() {
-        let (mut world, mut trials) = faulty();
-        trials.choice.draped = true;
-        let world = world.after_start(&mut trials, Some(Words::plain("it fell off"))).expect("taken");
-        assert_eq!(world.started.expect("told").tried.len(), 1);
     }
 
     #[test]

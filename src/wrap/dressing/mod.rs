@@ -1,5 +1,7 @@
 //! A wrap in steps: root edges, growth in bands, settling. One step is one tick of the simulation.
 
+mod plans;
+
 use std::collections::BTreeSet;
 use std::sync::Arc;
 
@@ -14,6 +16,7 @@ use crate::pattern::{Problem, ProblemKind};
 use crate::relax::step::STEP_CAP;
 use crate::relax::{GlobalStep, RelaxSettings, Relaxer};
 use crate::wrap::Marks;
+use crate::wrap::dressing::plans::Attempt;
 use crate::wrap::growth::{Growth, placed};
 use crate::wrap::hold::Hold;
 use crate::wrap::limbs::Limbs;
@@ -25,18 +28,6 @@ use crate::wrap::settling::Settling;
 /// Number of settling steps between two separations of intersecting layers. Flipped cloth, and cloth on the wrong side, is turned
 /// over only after as many: by then it is roughly in place. Chosen by trial.
 const STEPS_PER_PARTING: usize = 10;
-/// Number of triangles per fault below which a wrap has failed; fewer faults are repaired on finer meshes. With 400, four faults of
-/// a T-shirt of 1,422 triangles, which finer meshes repaired, took a second try.
-const TRIANGLES_PER_FAULT: usize = 150;
-
-/// The best result of the plans tried before.
-#[derive(Clone, Debug)]
-struct Attempt {
-    faults: usize,
-    contact: f64,
-    relaxer: Relaxer,
-    cloth: ClothState,
-}
 
 /// Phase of a dressing.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize)]
@@ -52,9 +43,17 @@ pub enum Phase {
 
 #[derive(Clone, Debug)]
 enum Stage {
-    Grow { limit: f64, bands: usize, fresh: Vec<u32> },
-    BetweenTiers { left: usize },
+    Grow {
+        limit: f64,
+        bands: usize,
+        fresh: Vec<u32>,
+    },
+    BetweenTiers {
+        left: usize,
+    },
     Settle(Settling),
+    /// The plan is given up.
+    GivenUp(Settling),
     Rest,
 }
 
@@ -84,6 +83,8 @@ pub struct Dressing {
     contact: f64,
     /// The best result of the plans before.
     best: Option<Box<Attempt>>,
+    /// Whether it grew by every plan and has many faults.
+    failed: bool,
     /// Lengths of each pair of marks on cloth and body.
     pub stretches: Vec<PairStretch>,
 }
@@ -233,6 +234,7 @@ impl Dressing {
             roots,
             contact: PLAIN.contact,
             best: None,
+            failed: false,
             stretches,
         };
         (Some(dressing), state, problems)
@@ -248,9 +250,9 @@ impl Dressing {
             Stage::Grow { limit, bands, fresh } => self.grow(state, limit, bands, fresh),
             Stage::BetweenTiers { left } => self.between_tiers(state, left),
             Stage::Settle(settling) => self.settle(state, settling),
-            Stage::Rest => {}
+            Stage::GivenUp(_) | Stage::Rest => {}
         }
-        if matches!(self.stage, Stage::Rest) {
+        if matches!(self.stage, Stage::GivenUp(_) | Stage::Rest) {
             self.judge(state);
         }
         self.phase()
@@ -263,7 +265,7 @@ impl Dressing {
         }
         match self.stage {
             Stage::Grow { .. } | Stage::BetweenTiers { .. } => Phase::Growing,
-            Stage::Settle(_) => Phase::Settling,
+            Stage::Settle(_) | Stage::GivenUp(_) => Phase::Settling,
             Stage::Rest => Phase::AtRest,
         }
     }
@@ -276,7 +278,7 @@ impl Dressing {
         let grown = self.mapped as f64 / self.to_map.max(1) as f64;
         match self.stage {
             Stage::Grow { .. } | Stage::BetweenTiers { .. } => 0.6 * grown,
-            Stage::Settle(settling) => 0.6 + 0.4 * settling.progress(),
+            Stage::Settle(settling) | Stage::GivenUp(settling) => 0.6 + 0.4 * settling.progress(),
             Stage::Rest => 1.0,
         }
     }
@@ -323,6 +325,7 @@ impl Dressing {
             plan: None,
             contact: PLAIN.contact,
             best: None,
+            failed: false,
             stretches: Vec::new(),
         }
     }
@@ -467,6 +470,7 @@ impl Dressing {
         self.stage = match (still, mended) {
             (true, false) => Stage::Rest,
             (true, true) => Stage::Settle(settling.mended()),
+            (false, _) if self.is_hopeless(state, &mut settling) => Stage::GivenUp(settling.stepped()),
             (false, _) => Stage::Settle(settling.stepped()),
         };
     }
@@ -481,53 +485,6 @@ impl Dressing {
             weight,
         };
         self.relaxer.global_step(state, step)
-    }
-
-    /// Judges cloth at rest that grew by a plan: if it has too many faults, the next plan is tried, and after the
-    /// last the best result is taken.
-    fn judge(&mut self, state: &mut ClothState) {
-        let Some(plan) = self.plan.take() else { return };
-        let faults = self.relaxer.faults(state);
-        if faults * TRIANGLES_PER_FAULT <= self.relaxer.garment.triangles.len() {
-            self.best = None;
-            return;
-        }
-        if self.best.as_ref().is_none_or(|best| faults < best.faults) {
-            let (relaxer, cloth) = (self.relaxer.clone(), state.clone());
-            self.best = Some(Box::new(Attempt { faults, contact: self.contact, relaxer, cloth }));
-        }
-        if plan + 1 < PLANS.len() && self.begin_again(state).is_some() {
-            self.plan = Some(plan + 1);
-            self.contact = self.way().contact;
-        } else if let Some(best) = self.best.take() {
-            let counters = self.relaxer.counters;
-            self.relaxer = best.relaxer;
-            self.contact = best.contact;
-            self.relaxer.counters = counters;
-            *state = best.cloth;
-        }
-    }
-
-    /// Starts again from the roots. None when there is not enough memory.
-    fn begin_again(&mut self, state: &mut ClothState) -> Option<()> {
-        let (garment, surface) = (self.relaxer.garment.clone(), self.relaxer.surface.clone());
-        let mut relaxer = Relaxer::new(garment, surface, self.relaxer.settings)?;
-        relaxer.counters = self.relaxer.counters;
-        state.mapped.fill(false);
-        // Friction and momentum take a vertex whose last position is the origin for a new one.
-        state.positions.fill(DVec3::ZERO);
-        for root in &self.roots {
-            state.positions[root.vertex as usize] = root.position;
-            state.mapped[root.vertex as usize] = true;
-            relaxer.hold(root.vertex, root.position);
-        }
-        self.growth = Growth::new(&relaxer.garment, &self.order, &state.mapped);
-        self.relaxer = relaxer;
-        self.tier = 0;
-        self.mapped = self.roots.len();
-        let fresh = self.roots.iter().map(|r| r.vertex).collect();
-        self.stage = Stage::Grow { limit: 0.0, bands: 0, fresh };
-        Some(())
     }
 
     fn way(&self) -> Plan {
