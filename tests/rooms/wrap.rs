@@ -81,7 +81,7 @@ fn plans_whose_faults_do_not_get_fewer_are_given_up_and_the_best_comes_to_rest()
     let pattern = tube(width, 0.5);
     let (garment, _) = build(&pattern, 0.03);
     let surface = Arc::new(Surface::new(cylinder(RADIUS, 1.0, 64, 30)).expect("a body"));
-    // Numbers of steps for which each plan settled, and whether all left many faults.
+    // Numbers of steps for which each plan settled.
     let settled = |marks: &Marks| {
         let (dressing, mut state, problems) =
             Dressing::new(Arc::new(garment.clone()), surface.clone(), marks, settings(&surface));
@@ -92,7 +92,7 @@ fn plans_whose_faults_do_not_get_fewer_are_given_up_and_the_best_comes_to_rest()
                 Phase::Settling => *runs.last_mut().expect("a run") += 1,
                 Phase::Growing if runs.last() != Some(&0) => runs.push(0),
                 Phase::Growing => {}
-                Phase::AtRest => return (runs, dressing.has_failed()),
+                Phase::AtRest => return runs,
             }
         }
         panic!("never at rest: {runs:?}")
@@ -100,10 +100,10 @@ fn plans_whose_faults_do_not_get_fewer_are_given_up_and_the_best_comes_to_rest()
     let good = tube_marks(&pattern, width, 0.5, RADIUS, 0.25);
     let mut crossed = good.clone();
     crossed.body[1].points = good.body[0].points.iter().rev().copied().collect();
-    let ((good, good_failed), (crossed, crossed_failed)) = (settled(&good), settled(&crossed));
+    let (good, crossed) = (settled(&good), settled(&crossed));
     println!("{good:?} {crossed:?}");
-    assert!(good.len() == 1 && !good_failed && crossed_failed);
-    assert!(crossed.len() == 5 && crossed.iter().any(|&steps| steps < 300), "one is given up");
+    assert_eq!((good.len(), crossed.len()), (1, 5), "number of plans that are tried");
+    assert!(crossed.iter().any(|&steps| steps < 300), "one is given up");
     assert!(crossed.iter().any(|&steps| steps > 400), "what still changes is not");
 }
 

@@ -83,8 +83,6 @@ pub struct Dressing {
     contact: f64,
     /// The best result of the plans before.
     best: Option<Box<Attempt>>,
-    /// Whether it grew by every plan and has many faults.
-    failed: bool,
     /// Lengths of each pair of marks on cloth and body.
     pub stretches: Vec<PairStretch>,
 }
@@ -234,7 +232,6 @@ impl Dressing {
             roots,
             contact: PLAIN.contact,
             best: None,
-            failed: false,
             stretches,
         };
         (Some(dressing), state, problems)
@@ -325,7 +322,6 @@ impl Dressing {
             plan: None,
             contact: PLAIN.contact,
             best: None,
-            failed: false,
             stretches: Vec::new(),
         }
     }

@@ -9,14 +9,15 @@ use crate::wrap::growth::Growth;
 use crate::wrap::plan::PLANS;
 use crate::wrap::settling::Settling;
 
-/// Number of triangles per fault below which a wrap has failed, as fewer faults are repaired on finer meshes, and below which it has many
-/// faults. With 400 for the first, four faults of a T-shirt of 1,422 triangles, which finer meshes repaired, took a second try. With 6
-/// to 12 for the second the same plans are given up; of 86 for 30 garments none of those was to succeed.
-const TRIANGLES_PER_FAULT: PerFault = PerFault { failed: 150, many: 8 };
+/// Numbers of triangles per fault. With 400 for `failed`, four faults of a T-shirt of 1,422 triangles, which finer meshes repaired, took a
+/// second try. With 6 to 12 for `many`, no plan is given up either that would have succeeded (86 plans for 30 garments).
+const TRIANGLES_PER_FAULT: TrianglesPerFault = TrianglesPerFault { failed: 150, many: 8 };
 
 #[derive(Clone, Copy, Debug)]
-struct PerFault {
+struct TrianglesPerFault {
+    /// With fewer a wrap has failed; finer meshes repair fewer faults.
     failed: usize,
+    /// With fewer it has so many faults that they must get fewer while it settles.
     many: usize,
 }
 
@@ -32,11 +33,6 @@ pub(super) struct Attempt {
 }
 
 impl Dressing {
-    /// Whether the cloth grew by every plan and has many faults.
-    pub fn has_failed(&self) -> bool {
-        self.failed || self.coarse.as_ref().is_some_and(|coarse| coarse.dressing.has_failed())
-    }
-
     /// Whether cloth that settles after it grew by a plan has many faults that do not get fewer.
     pub(super) fn is_hopeless(&mut self, state: &ClothState, settling: &mut Settling) -> bool {
         if self.plan.is_none() || !settling.is_to_be_looked_at() {
@@ -44,18 +40,16 @@ impl Dressing {
         }
         let faults = self.relaxer.faults(state);
         let before = settling.faults.replace(faults);
-        self.are_many(faults) && before.is_some_and(|before| faults >= before)
-    }
-
-    fn are_many(&self, faults: usize) -> bool {
-        faults * TRIANGLES_PER_FAULT.many > self.relaxer.garment.triangles.len()
+        let are_many = faults * TRIANGLES_PER_FAULT.many > self.relaxer.garment.triangles.len();
+        are_many && before.is_some_and(|before| faults >= before)
     }
 
     /// Judges cloth that grew by a plan and is at rest or given up: if it has too many faults, the next plan is tried,
     /// and after the last the best result is taken.
     pub(super) fn judge(&mut self, state: &mut ClothState) {
         let Some(plan) = self.plan.take() else { return };
-        let faults = self.relaxer.faults(state);
+        let counted = if let Stage::GivenUp(settling) = &self.stage { settling.faults } else { None };
+        let faults = counted.unwrap_or_else(|| self.relaxer.faults(state));
         if faults * TRIANGLES_PER_FAULT.failed <= self.relaxer.garment.triangles.len() {
             self.best = None;
             return;
@@ -74,7 +68,6 @@ impl Dressing {
             self.contact = best.contact;
             self.relaxer.counters = counters;
             *state = best.cloth;
-            self.failed = self.are_many(best.faults);
             // What was given up settles to its end where nothing better was reached.
             self.stage = match best.stage {
                 Stage::GivenUp(settling) => Stage::Settle(settling),

@@ -123,11 +123,6 @@ impl Trials {
         self.ticks >= MOST_TICKS * layers && !is_last && self.refining.is_none()
     }
 
-    /// Whether nothing was reached and no other start is left.
-    fn is_last(&self) -> bool {
-        self.best.is_none() && self.left.is_empty()
-    }
-
     /// The number of the result that is being worked for, from 0.
     pub fn count(&self) -> usize {
         match &self.refining {
@@ -284,8 +279,7 @@ impl World {
         let Some(mut trials) = self.trials.take() else { return };
         let now = Arc::make_mut(&mut trials);
         let broken = now.broken.take();
-        let is_over =
-            broken.is_some() || self.lies_still() || now.is_out_of_time() || self.leads_nowhere(now);
+        let is_over = broken.is_some() || self.lies_still() || now.is_out_of_time();
         if !is_over {
             now.ticks += u32::from(!self.is_mid_tick());
             // Kept in place in case this tick fails.
@@ -296,12 +290,6 @@ impl World {
             Some(world) => *self = world,
             None => self.trials = Some(trials),
         }
-    }
-
-    /// Whether the present start grew by every plan and has many faults, while another start can be taken.
-    fn leads_nowhere(&self, trials: &Trials) -> bool {
-        let has_failed = self.dressing.as_ref().is_some_and(|dressing| dressing.has_failed());
-        has_failed && !trials.draping && !trials.is_last() && trials.refining.is_none()
     }
 
     /// Records the failure of the present start, in words. False where none is being tried.
@@ -345,15 +333,11 @@ impl World {
     fn after_start(&mut self, trials: &mut Trials, broken: Option<Words>) -> Option<Self> {
         let mut faults: Vec<Words> = broken.into_iter().collect();
         let (mut places, mut is_astray) = (0, false);
-        let leads_nowhere = self.leads_nowhere(trials);
-        if leads_nowhere {
-            self.dressing = self.resumed();
-        }
         if faults.is_empty() {
             if let Some(judged) = self.judged() {
                 let words = |fault: Fault| fault.problem.in_words();
                 faults.extend(judged.faults.into_iter().map(words));
-                (places, is_astray) = (judged.places, judged.is_astray || leads_nowhere);
+                (places, is_astray) = (judged.places, judged.is_astray);
             }
             if trials.is_out_of_time() && !self.lies_still() {
                 faults.push(words!("it still moves"));
