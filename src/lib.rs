@@ -15,7 +15,7 @@
 //! | `cloth`    | the sewn garment as solvers see it: topology and rest shape, moving state; fabrics; the shapes of trims on it | pattern, geometry |
 //! | `contact`  | collision of cloth with the body, its bones and itself; edges split where they would cut the body | cloth, body, geometry |
 //! | `relax`    | paper A's relaxation: shape matching, flattening, gravity, friction; no physics (see `drape`) | contact, cloth, body, geometry |
-//! | `wrap`     | paper A: marks, root edges, growth | relax, contact, cloth, body, pattern, geometry |
+//! | `wrap`     | paper A: marks, root edges, growth, tubes round limbs | relax, contact, cloth, body, pattern, geometry |
 //! | `drag`     | paper A: dependency graph, motion in local frames, pushpins | relax, contact, cloth, body, pattern, geometry |
 //! | `card`     | small steps of cloth with contact on a graphics card: compute shaders, plain buffers in, positions out | geometry |
 //! | `drape`    | physics: forces (membrane, bending, folds, elastic), contact, solvers (implicit steps, small steps, direct equilibrium); a garment on its body, on a graphics card where one may be used; sewing | card, contact, cloth, body, geometry |

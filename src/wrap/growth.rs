@@ -65,12 +65,8 @@ impl Growth {
     }
 }
 
-/// Cosine between a limb's axis and an edge above which the axis gives no direction of growth across that edge. Chosen by trial;
-/// what is left of the axis across the edge is then less than 0.6 of it.
-const ALONG_EDGE: f64 = 0.8;
-
-/// Position of a new vertex `v` from its mapped parent triangles, at least `offset` metres out of the body. With a
-/// `limb` it grows in that direction. It is pushed out in up to `pushes` steps, and then goes to the nearest skin.
+/// Position of a new vertex `v` from its mapped parent triangles, at least `offset` metres out of the body. It is
+/// pushed out in up to `pushes` steps, and then goes to the nearest skin.
 pub fn placed(
     garment: &Garment,
     surface: &Surface,
@@ -78,7 +74,6 @@ pub fn placed(
     v: u32,
     offset: f64,
     pushes: usize,
-    limb: Option<DVec3>,
 ) -> Option<DVec3> {
     let mut sum = DVec3::ZERO;
     let mut normals = DVec3::ZERO;
@@ -104,7 +99,7 @@ pub fn placed(
         let along = to.dot(flat) / length;
         let altitude = flat.perp_dot(to) / length.sqrt();
         let edge = (b - a).normalize_or_zero();
-        let onward = limb.filter(|limb| limb.dot(edge).abs() < ALONG_EDGE).unwrap_or(normal.cross(edge));
+        let onward = normal.cross(edge);
         sum += a + (b - a) * along + (onward - edge * onward.dot(edge)).normalize_or_zero() * altitude;
         normals += normal;
         count += 1.0;

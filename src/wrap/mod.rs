@@ -13,6 +13,7 @@ mod plan;
 pub mod roots;
 mod settling;
 pub mod suggest;
+mod tube;
 
 pub use coarser::coarser;
 pub use dressing::{Dressed, Dressing, Phase};

@@ -102,7 +102,7 @@ fn plans_whose_faults_do_not_get_fewer_are_given_up_and_the_best_comes_to_rest()
     crossed.body[1].points = good.body[0].points.iter().rev().copied().collect();
     let (good, crossed) = (settled(&good), settled(&crossed));
     println!("{good:?} {crossed:?}");
-    assert_eq!((good.len(), crossed.len()), (1, 5), "number of plans that are tried");
+    assert_eq!((good.len(), crossed.len()), (1, 4), "number of plans that are tried");
     assert!(crossed.iter().any(|&steps| steps < 300), "one is given up");
     assert!(crossed.iter().any(|&steps| steps > 400), "what still changes is not");
 }

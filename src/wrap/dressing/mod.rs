@@ -398,16 +398,12 @@ impl Dressing {
                 return;
             }
         };
-        let Plan { pushes, along_limbs, .. } = self.way();
-        let along_limbs = along_limbs && self.tier > 0;
-        if along_limbs {
-            self.limbs.advance(&self.relaxer.surface, self.edge_length);
-        }
+        let Plan { pushes, tubes, .. } = self.way();
         while let Some(v) = self.growth.pop(self.tier, limit) {
             let offset = self.relaxer.offset();
-            let limb = if along_limbs { self.limbs.along(v) } else { None };
             let (garment, surface) = (&self.relaxer.garment, &self.relaxer.surface);
-            if let Some(p) = placed(garment, surface, state, v, offset, pushes, limb) {
+            let round = if tubes && self.tier > 0 { self.limbs.place(v) } else { None };
+            if let Some(p) = round.or_else(|| placed(garment, surface, state, v, offset, pushes)) {
                 state.positions[v as usize] = p;
                 state.mapped[v as usize] = true;
                 self.mapped += 1;
@@ -434,8 +430,9 @@ impl Dressing {
         self.stage = if left > 1 {
             Stage::BetweenTiers { left: left - 1 }
         } else {
-            if self.way().along_limbs {
-                self.limbs.begin(&self.relaxer.garment, &self.relaxer.surface, state);
+            if self.way().tubes {
+                let Relaxer { garment, surface, .. } = &self.relaxer;
+                self.limbs.begin(garment, surface, state, &self.order, self.relaxer.offset());
             }
             Stage::Grow { limit: 0.0, bands: 0, fresh: Vec::new() }
         };
